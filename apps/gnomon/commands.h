@@ -1,0 +1,29 @@
+// The commands of the program. Each file cmd_*.cpp adds one: arguments, progress, messages; no algorithm.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+namespace gnomon::app {
+
+// Ends a command: main prints "gnomon: error: <what>" and exits with 1.
+struct Failure : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+// Options that every command has.
+struct Common {
+  int threads = 0;     // 0: all
+  bool quiet = false;  // only errors
+  int verbose = 0;     // -v
+};
+void add_common(CLI::App& command, Common& common);
+
+void add_profile(CLI::App& app);
+void add_inspect(CLI::App& app);
+void add_sun(CLI::App& app);
+void add_verify(CLI::App& app);
+
+}  // namespace gnomon::app

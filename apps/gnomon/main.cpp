@@ -1,0 +1,36 @@
+#include <cstdio>
+#include <exception>
+
+#include "commands.h"
+
+namespace gnomon::app {
+
+void add_common(CLI::App& command, Common& common) {
+  command.add_option("--threads", common.threads, "Number of threads (default: all cores)")
+      ->check(CLI::Range(1, 1024))
+      ->group("General");
+  command.add_flag("-q,--quiet", common.quiet, "Print errors only")->group("General");
+  command.add_flag("-v,--verbose", common.verbose, "Say more; twice: even more")->group("General");
+}
+
+}  // namespace gnomon::app
+
+int main(int argc, char** argv) {
+  CLI::App app{"Gnomon computes exact shadows from 3D models."};
+  app.name("gnomon");
+  app.set_version_flag("--version", std::string("gnomon ") + GNOMON_VERSION);
+  app.require_subcommand(1);
+  gnomon::app::add_profile(app);
+  gnomon::app::add_inspect(app);
+  gnomon::app::add_sun(app);
+  gnomon::app::add_verify(app);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e);
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "gnomon: error: %s\n", e.what());
+    return 1;
+  }
+  return 0;
+}

@@ -1,0 +1,46 @@
+// From "18 September, 9:00 to 17:00, every hour, Europe/Vienna" to instants, sun positions and weights.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <gnomon/core/place.h>
+#include <gnomon/core/result.h>
+#include <gnomon/core/vec.h>
+#include <gnomon/core/warnings.h>
+#include <gnomon/sun/sun.h>
+
+namespace gnomon {
+
+struct StudyTimes {
+  std::string date;   // "YYYY-MM-DD"
+  std::string from;   // "HH:MM[:SS]" on the clock of `zone`; empty: sunrise
+  std::string to;     // "HH:MM[:SS]"; "24:00" is the end of the day; empty: sunset
+  std::string every = "1h";  // "5min", "1h", "90s", "1h30min"
+  std::string zone;   // IANA name ("Europe/Vienna"), "UTC", or "solar" (true solar time). Required.
+};
+
+// One moment of the study.
+struct TimeSample {
+  Instant utc;
+  std::uint32_t weight_ms = 0;  // length of the step it stands for; 0 for instants()
+  SunPosition sun;
+  Light light{0, 0, 0, 0};      // towards the apparent sun, scene coordinates, unit length
+  bool up = false;              // the sun's (apparent) centre is above the horizon; if not, it contributes nothing
+};
+
+struct Samples {
+  std::vector<TimeSample> midpoints;  // the steps' midpoints: what hours are summed over
+  std::vector<TimeSample> instants;   // from, from + every, ..., to (both ends): what pictures of single shadows show
+  Instant begin, end;                 // the window in UTC
+  Warnings warnings;                  // e.g. steps with the sun below the horizon, a last shorter step
+};
+
+// Errors: no zone or an unknown one, unreadable date/time/step, from not before to, local time that does not exist
+// (spring forward: named), ambiguous local time (autumn: the earlier one is taken, with a warning).
+Result<Samples> study_samples(const StudyTimes& times, const Place& place, double true_north,
+                              const Atmosphere& air = {});
+
+}  // namespace gnomon
