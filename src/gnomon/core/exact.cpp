@@ -1,0 +1,27 @@
+#include <gnomon/core/exact.h>
+
+namespace gnomon {
+namespace {
+
+struct LightSide {
+  const Vec3 &a, &b, &c;
+  const Light& light;
+  template <class T>
+  T operator()(int, int l, int) const {
+    return det4<T>(lift<T>(a), lift<T>(b), lift<T>(c), lift<T>(order_of(light, l)));
+  }
+};
+
+}  // namespace
+
+int light_side(const Vec3& a, const Vec3& b, const Vec3& c, const Light& light, ExactStats& stats) {
+  return tie_sign({.eye = false, .light = true, .pixel = false}, stats, LightSide{a, b, c, light});
+}
+
+bool zero_area(const Vec3& a, const Vec3& b, const Vec3& c) {
+  // The three components of the normal are what light_side sees of lights at infinity along the axes.
+  ExactStats ignored;
+  return light_side(a, b, c, Light(1, 0, 0, 0), ignored) == 0;
+}
+
+}  // namespace gnomon

@@ -1,0 +1,17 @@
+// On which side of each triangle the light is: computed once per triangle, read everywhere.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <gnomon/core/exact.h>
+#include <gnomon/core/vec.h>
+#include <gnomon/mesh/tri_mesh.h>
+
+namespace gnomon {
+
+// Per triangle (A,B,C): +1 or -1, the exact sign of |A; B; C; light| under the tie rule.
+// Preconditions: welded mesh (no triangle of zero area); light components snapped (see exact.h).
+std::vector<std::int8_t> light_sides(const TriMesh& mesh, const Light& light, ExactStats* stats = nullptr);
+
+}  // namespace gnomon
