@@ -10,15 +10,21 @@
 
 namespace gnomon {
 
-// rings[0] is the outer ring, the others are holes; entries are indices into `positions`; not closed (first != last; a repeated last
-// is tolerated). The polygon is projected along the largest component of its Newell normal. Triangles use only the given
-// vertices and keep the polygon's winding. A polygon that is not simple (self-touching, crossing, zero area ring) is
-// triangulated as a fan of its outer ring and `problem` says why (empty if all is well); rings of fewer than 3 distinct vertices
-// give no triangles and a problem.
 struct Triangulation {
   std::vector<std::array<std::uint32_t, 3>> triangles;  // indices into positions
-  std::string problem;
+  std::string problem;                                  // empty if all is well
 };
-Triangulation triangulate(const std::vector<Vec3>& positions, const std::vector<std::vector<std::uint32_t>>& rings);
+
+// rings[0] is the outer ring, the others are holes (wound either way); entries are indices into
+// `positions`; not closed (first != last; a repeated last is tolerated, so are repeated corners).
+// The polygon is projected along the largest component of its Newell normal. Triangles use only the
+// given vertices and keep the polygon's winding; they cover the projected polygon exactly once,
+// which is checked exactly. A polygon for which that cannot be had (crossing itself, holes that
+// cross the outer ring, no area) is triangulated as a fan of its outer ring and `problem` says why.
+// An outer ring of fewer than 3 distinct vertices gives no triangles and a problem; such a hole is
+// left out, with a problem. Three corners without holes are one triangle, whatever its area.
+// Preconditions: indices in range; coordinates finite, at most kLargestCoordinate (core/exact.h).
+Triangulation triangulate(const std::vector<Vec3>& positions,
+                          const std::vector<std::vector<std::uint32_t>>& rings);
 
 }  // namespace gnomon

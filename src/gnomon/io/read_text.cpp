@@ -1,0 +1,61 @@
+#include <fmt/format.h>
+#include <gnomon/io/read_text.h>
+
+#include <algorithm>
+#include <fstream>
+
+namespace gnomon {
+
+Result<std::string> read_text(const std::filesystem::path& path) {
+  const std::string name = path.string();
+  std::error_code code;
+  const auto status = std::filesystem::status(path, code);
+  if (!std::filesystem::exists(status)) {
+    return Error{fmt::format("{}: there is no such file; check the path.", name)};
+  }
+  if (std::filesystem::is_directory(status)) {
+    return Error{fmt::format("{}: is a folder; name the model files in it.", name)};
+  }
+  std::ifstream file(path, std::ios::binary);
+  std::string text;
+  if (file) {
+    const auto size = std::filesystem::file_size(path, code);
+    if (!code) text.reserve(size);
+    char block[1 << 16];
+    while (file.read(block, sizeof block) || file.gcount() > 0) {
+      text.append(block, static_cast<std::size_t>(file.gcount()));
+    }
+  }
+  if (!file.eof()) {
+    return Error{fmt::format("{}: cannot be read; check its permissions.", name)};
+  }
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
+    return Error{fmt::format("{}: is UTF-16 text; save it as UTF-8.", name)};
+  }
+  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
+  if (text.find_first_not_of(" \t\r\n") == std::string::npos) {
+    return Error{fmt::format("{}: the file is empty; export the model again.", name)};
+  }
+  return text;
+}
+
+std::size_t line_of(std::string_view text, std::size_t offset) {
+  std::size_t line = 1;
+  for (std::size_t k = 0; k < std::min(offset, text.size()); ++k) {
+    const bool crlf = text[k] == '\r' && k + 1 < text.size() && text[k + 1] == '\n';
+    if (text[k] == '\n' || (text[k] == '\r' && !crlf)) ++line;
+  }
+  return line;
+}
+
+std::string quoted(std::string_view text, std::size_t most) {
+  std::string out = "\"";
+  for (const char c : text.substr(0, most)) {
+    const auto byte = static_cast<unsigned char>(c);
+    out += byte < 0x20 || byte >= 0x7f ? '?' : c;
+  }
+  if (text.size() > most) out += "...";
+  return out + "\"";
+}
+
+}  // namespace gnomon
