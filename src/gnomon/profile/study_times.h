@@ -1,4 +1,5 @@
-// From "18 September, 9:00 to 17:00, every hour, Europe/Vienna" to instants, sun positions and weights.
+// From "18 September, 9:00 to 17:00, every hour, Europe/Vienna" to instants, sun positions and
+// weights.
 #pragma once
 
 #include <chrono>
@@ -15,31 +16,51 @@
 namespace gnomon {
 
 struct StudyTimes {
-  std::string date;   // "YYYY-MM-DD"
-  std::string from;   // "HH:MM[:SS]" on the clock of `zone`; empty: sunrise
-  std::string to;     // "HH:MM[:SS]"; "24:00" is the end of the day; empty: sunset
+  std::string date;          // "YYYY-MM-DD"
+  std::string from;          // "HH:MM[:SS]" on the clock of `zone`; empty: sunrise
+  std::string to;            // "HH:MM[:SS]"; "24:00" is the end of the day; empty: sunset
   std::string every = "1h";  // "5min", "1h", "90s", "1h30min"
-  std::string zone;   // IANA name ("Europe/Vienna"), "UTC", or "solar" (true solar time). Required.
+  std::string zone;  // IANA name ("Europe/Vienna"), "UTC", or "solar" (true solar time). Required.
 };
+
+// A date of the local calendar.
+struct LocalDay {
+  Instant begin, end;  // 0:00 and 24:00 on the clock; a midnight that the clock skips is the first
+                       // instant after the gap
+  SunDay sun;  // the sunrise and sunset that fall between them, and the transit nearest to their
+               // middle
+  SunDay
+      arc;  // that transit, the sunrise before it and the sunset after it, even if beyond midnight
+};
+
+// Errors: no date or an unreadable one, no zone or an unknown one.
+Result<LocalDay> local_day(const std::string& date, const std::string& zone, const Place& place,
+                           const Atmosphere& air = {});
 
 // One moment of the study.
 struct TimeSample {
   Instant utc;
   std::uint32_t weight_ms = 0;  // length of the step it stands for; 0 for instants()
   SunPosition sun;
-  Light light{0, 0, 0, 0};      // towards the apparent sun, scene coordinates, unit length
-  bool up = false;              // the sun's (apparent) centre is above the horizon; if not, it contributes nothing
+  Light light{0, 0, 0, 0};  // towards the apparent sun, scene coordinates, unit length
+  bool up =
+      false;  // the sun's (apparent) centre is above the horizon; if not, it contributes nothing
 };
 
 struct Samples {
   std::vector<TimeSample> midpoints;  // the steps' midpoints: what hours are summed over
-  std::vector<TimeSample> instants;   // from, from + every, ..., to (both ends): what pictures of single shadows show
-  Instant begin, end;                 // the window in UTC
-  Warnings warnings;                  // e.g. steps with the sun below the horizon, a last shorter step
+  std::vector<TimeSample>
+      instants;  // from, from + every, ..., to (both ends): what pictures of single shadows show
+  Instant begin, end;  // the window in UTC
+  Warnings warnings;   // e.g. steps with the sun below the horizon, a last shorter step
 };
 
-// Errors: no zone or an unknown one, unreadable date/time/step, from not before to, local time that does not exist
-// (spring forward: named), ambiguous local time (autumn: the earlier one is taken, with a warning).
+// Steps are of elapsed time, begin at `from` and do not follow a change of the clock. Where the sun
+// does not rise or set, an empty `from` or `to` is the beginning or end of the local day, with a
+// warning. Errors: no date, no zone or an unknown one, unreadable date/time/step, from not before
+// to, local time that does not exist (spring forward: named), sun down all day and no from or to, a
+// step over 24 h, more than 100000 steps. Ambiguous local time (autumn): the earlier one is taken,
+// with a warning.
 Result<Samples> study_samples(const StudyTimes& times, const Place& place, double true_north,
                               const Atmosphere& air = {});
 

@@ -69,8 +69,10 @@ double cos_half_arc(const DaySky& sky) {
          (std::cos(sky.latitude) * std::cos(delta));
 }
 
-// A.2.8 to A.2.15: the guess m, corrected once.
-double correct(const DaySky& sky, double m, Event event) {
+// A.2.8 to A.2.15: the guess m, corrected once. Empty where the correction of a rise or set leads
+// past the transit or the lowest point: the sun only grazes the horizon, and the step, a division
+// by the sine of the hour angle, means nothing.
+std::optional<double> correct(const DaySky& sky, double m, Event event) {
   const double n = m + sky.delta_t_days;
   const double alpha = interpolate(sky.right_ascension, n);
   const double delta = interpolate(sky.declination, n) * kDegree;
@@ -79,17 +81,30 @@ double correct(const DaySky& sky, double m, Event event) {
   const double altitude =
       to_degrees(std::asin(std::sin(sky.latitude) * std::sin(delta) +
                            std::cos(sky.latitude) * std::cos(delta) * std::cos(h * kDegree)));
-  return m + (altitude - sky.altitude) /
-                 (360 * std::cos(delta) * std::cos(sky.latitude) * std::sin(h * kDegree));
+  const double step = (altitude - sky.altitude) /
+                      (360 * std::cos(delta) * std::cos(sky.latitude) * std::sin(h * kDegree));
+  const double corrected = (h + 360 * step) * (event == Event::kRise ? -1 : 1);
+  if (!(corrected > 0 && corrected < 180)) return {};
+  return m + step;
+}
+
+// First guesses of the day's events, fractions of the day in [0, 1) (A.2.5, A.2.6); rise and set
+// only where |cos_half_arc| <= 1.
+double guess(const DaySky& sky, Event event) {
+  const double m0 = guess_transit(sky);
+  if (event == Event::kTransit) return m0;
+  const double half_arc = to_degrees(std::acos(cos_half_arc(sky))) / 360;
+  return fraction(event == Event::kRise ? m0 - half_arc : m0 + half_arc);
 }
 
 // The event within the day, in [0, 1). A correction that crosses midnight leads to the event of a
 // neighbouring day; the day's own one is then a day's guess away. Empty where the day has none,
 // because it comes a little earlier or later from day to day.
-std::optional<double> within_day(const DaySky& sky, double guess, Event event) {
+std::optional<double> within_day(const DaySky& sky, Event event) {
+  const double first = guess(sky, event);
   for (int shift : {0, 1, -1}) {
-    const double m = correct(sky, guess + shift, event);
-    if (m >= 0 && m < 1) return m;
+    const std::optional<double> m = correct(sky, first + shift, event);
+    if (m && *m >= 0 && *m < 1) return m;
   }
   return {};
 }
@@ -98,28 +113,64 @@ Instant at(sys_days day, double m) {
   return Instant(day) + std::chrono::milliseconds(std::llround(m * 86400000.0));
 }
 
+bool rises_and_sets(const DaySky& sky) { return std::abs(cos_half_arc(sky)) <= 1; }
+
 }  // namespace
 
 SunDay sun_day(sys_days day, const Place& place, const Atmosphere& air,
                std::optional<double> delta_t_seconds) {
   const DaySky sky = day_sky(day, place, air, delta_t_seconds.value_or(delta_t(day)));
-  const double m0 = guess_transit(sky);
-  const double cos_h0 = cos_half_arc(sky);
-
   SunDay result;
-  // A day of the year has no transit within it (it comes up to 30 s later each day); the next day's
-  // first one stands for it.
-  result.transit =
-      at(day, within_day(sky, m0, Event::kTransit).value_or(correct(sky, m0, Event::kTransit)));
+  // Once a year or so a day has no transit, because it comes up to 30 s later from day to day; the
+  // one just outside stands for it.
+  const double m0 = *correct(sky, guess(sky, Event::kTransit), Event::kTransit);
+  result.transit = at(day, within_day(sky, Event::kTransit).value_or(m0));
+  const double cos_h0 = cos_half_arc(sky);
   result.polar_day = cos_h0 < -1;
   result.polar_night = cos_h0 > 1;
-  if (result.polar_day || result.polar_night) return result;
+  if (!rises_and_sets(sky)) return result;
+  if (const auto m = within_day(sky, Event::kRise)) result.sunrise = at(day, *m);
+  if (const auto m = within_day(sky, Event::kSet)) result.sunset = at(day, *m);
+  return result;
+}
 
+SunDay sun_arc(Instant noon, const Place& place, const Atmosphere& air,
+               std::optional<double> delta_t_seconds) {
+  const double dt = delta_t_seconds.value_or(delta_t(noon));
+  const sys_days middle = std::chrono::floor<days>(noon);
+  SunDay result;
+  for (int d : {0, -1, 1}) {
+    const sys_days day = middle + days(d);
+    const DaySky sky = day_sky(day, place, air, dt);
+    const Instant transit = at(day, *correct(sky, guess(sky, Event::kTransit), Event::kTransit));
+    if (d == 0 || std::chrono::abs(transit - noon) < std::chrono::abs(result.transit - noon))
+      result.transit = transit;
+  }
+
+  const sys_days day = std::chrono::floor<days>(result.transit);
+  const DaySky sky = day_sky(day, place, air, dt);
+  const double cos_h0 = cos_half_arc(sky);
+  result.polar_day = cos_h0 < -1;
+  result.polar_night = cos_h0 > 1;
+  if (!rises_and_sets(sky)) return result;
+
+  const double m0 = static_cast<double>((result.transit - Instant(day)).count()) / 86400000.0;
   const double half_arc = to_degrees(std::acos(cos_h0)) / 360;
-  if (const auto m = within_day(sky, fraction(m0 - half_arc), Event::kRise))
-    result.sunrise = at(day, *m);
-  if (const auto m = within_day(sky, fraction(m0 + half_arc), Event::kSet))
-    result.sunset = at(day, *m);
+  const auto event = [&](double expected, Event kind) -> std::optional<Instant> {
+    // The day on which the event is expected gives the value, so that it is the same as sun_day's.
+    const sys_days own = day + days(static_cast<int>(std::floor(expected)));
+    const DaySky own_sky = day_sky(own, place, air, dt);
+    double m = fraction(expected);
+    if (rises_and_sets(own_sky)) {
+      const double first = guess(own_sky, kind);
+      m = first + std::round(m - first);
+    }
+    const std::optional<double> corrected = correct(own_sky, m, kind);
+    if (!corrected) return {};
+    return at(own, *corrected);
+  };
+  result.sunrise = event(m0 - half_arc, Event::kRise);
+  result.sunset = event(m0 + half_arc, Event::kSet);
   return result;
 }
 
