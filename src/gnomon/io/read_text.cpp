@@ -48,7 +48,7 @@ std::size_t line_of(std::string_view text, std::size_t offset) {
   return line;
 }
 
-std::string quoted(std::string_view text, std::size_t most) {
+std::string in_quotes(std::string_view text, std::size_t most) {
   std::string out = "\"";
   for (const char c : text.substr(0, most)) {
     const auto byte = static_cast<unsigned char>(c);

@@ -19,6 +19,6 @@ std::size_t line_of(std::string_view text, std::size_t offset);
 
 // `text` cut to `most` bytes, without control characters and broken UTF-8, in quotes: fit for a
 // message.
-std::string quoted(std::string_view text, std::size_t most = 60);
+std::string in_quotes(std::string_view text, std::size_t most = 60);
 
 }  // namespace gnomon
