@@ -1,5 +1,5 @@
-// The counter: how many casters lie between each sample and each light, from the sides of the shadow volume.
-// DEFINITIONS "The prism and the count"; docs/counting.md.
+// The counter: how many casters lie between each sample and each light, from the sides of the
+// shadow volume. DEFINITIONS "The prism and the count"; docs/counting.md.
 #pragma once
 
 #include <cstdint>
@@ -24,32 +24,38 @@ Casters prepare_casters(const Scene& scene);
 
 // The finished counts of one light over some rows of the picture.
 struct CountBand {
-  int light = 0;       // index into the lights
+  int light = 0;  // index into the lights
   int first_row = 0, rows = 0, width = 0;
-  int stride = 0;      // from one row of counts to the next
-  // n(p) of DEFINITIONS; where the light is not strictly on the seen side of a receiver that does not cast, at least 1. So a sample is in
-  // shadow exactly if its count is > 0. Pixels without a sample: 0.
+  int stride = 0;  // from one row of counts to the next
+  // n(p) of DEFINITIONS; where the light is not strictly on the seen side of a receiver that does
+  // not cast, at least 1. So a sample is in shadow exactly if its count is > 0. Pixels without a
+  // sample: 0.
   const std::int32_t* counts = nullptr;
 };
 
-// Called once per light and band; concurrently for different bands, one light after the other for the same band.
+// Called once per light and band; concurrently for different bands, one light after the other for
+// the same band.
 using BandSink = std::function<void(const CountBand&)>;
 
 struct CountStats {
-  ExactStats signs;             // light sides of triangles, facings, C(e)
-  ExactStats spans;             // ends of spans
-  ExactStats depths;            // sample against polygon; `exact` counts all decisions that left the float filter
+  ExactStats signs;   // light sides of triangles, facings, C(e)
+  ExactStats spans;   // ends of spans
+  ExactStats depths;  // sample against polygon
+  std::uint64_t close =
+      0;  // samples within the float filter's bound of a polygon, decided in double or exactly
   std::uint64_t sides = 0;      // silhouette edges over all lights
   std::uint64_t triangles = 0;  // casting triangles over all lights
 };
 
-// Counts for all lights over one view: lights in batches, bands of rows outside, lights inside. Masks do not depend on
-// `threads` (0: all), nor on the order or winding of triangles. Lights' components are snapped (exact.h).
-CountStats count_shadows(const Casters& casters, const Receivers& receivers, std::span<const Light> lights,
-                         const BandSink& sink, int threads = 0);
+// Counts for all lights over one view: lights in batches, bands of rows outside, lights inside.
+// Masks do not depend on `threads` (0: all), nor on the order or winding of triangles. Lights'
+// components are snapped (exact.h).
+CountStats count_shadows(const Casters& casters, const Receivers& receivers,
+                         std::span<const Light> lights, const BandSink& sink, int threads = 0);
 
-// The specification: every sample against every side and caster by the exact predicates, no spans, no filter of its own. Slow.
-// Row-major counts as in CountBand.
-std::vector<std::int32_t> count_shadows_reference(const Casters& casters, const Receivers& receivers, const Light& light);
+// The specification: every sample against every side and caster by the exact predicates, no spans,
+// no filter of its own. Slow. Row-major counts as in CountBand.
+std::vector<std::int32_t> count_shadows_reference(const Casters& casters,
+                                                  const Receivers& receivers, const Light& light);
 
 }  // namespace gnomon

@@ -1,0 +1,354 @@
+#include <gnomon/raster/count_shadows.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <mutex>
+
+#include <glm/common.hpp>
+
+#include <gnomon/core/parallel.h>
+#include <gnomon/raster/fill_band.h>
+#include <gnomon/raster/polygon.h>
+#include <gnomon/silhouette/light_sides.h>
+#include <gnomon/silhouette/silhouette.h>
+
+namespace gnomon {
+namespace {
+
+constexpr int kBandRows = 16;  // counts and nearness of a band stay in the second-level cache
+static_assert(kBandRows <= kBandRowsMax);
+
+// Polygons of this many bytes are set up before they are filled: several lights share one pass over
+// the bands.
+constexpr std::size_t kBatchBytes = std::size_t{64} << 20;
+constexpr std::size_t kBatchLights = 64;
+
+Corners corners_of(const Scene& scene, std::uint32_t triangle) {
+  const Triangle& t = scene.mesh.triangles[triangle];
+  return triangle_corners(scene.mesh.positions[t[0]], scene.mesh.positions[t[1]],
+                          scene.mesh.positions[t[2]]);
+}
+
+bool is_caster(const Casters& c, std::uint32_t triangle) {
+  return c.selected.empty() || c.selected[triangle] != 0;
+}
+
+// What all lights share.
+struct ViewSetup {
+  ScreenSpace space;
+  ScreenPoints screen;
+  double least_nearness = 0;       // of all samples; -infinity: some are unknown
+  std::vector<double> band_least;  // per band
+};
+
+// One light, ready to be filled.
+struct LightSetup {
+  Light light{0, 0, 0, 0};
+  Silhouette silhouette;
+  std::vector<Polygon>
+      polygons;           // sides first (id: index into silhouette), then casters (id: triangle)
+  std::size_t sides = 0;  // how many of the polygons are sides
+  std::vector<std::uint32_t> bin_first;  // CSR: polygons of each band
+  std::vector<std::uint32_t> bins;
+  std::int32_t eye_count = 0;  // C(e)
+  std::vector<std::uint8_t>
+      unlit;  // per triangle that receives but does not cast: the light is not on its seen side
+  ExactStats stats;
+};
+
+ViewSetup set_up_view(const Casters& casters, const Receivers& r, int threads) {
+  ViewSetup v;
+  v.space = screen_space(r.view);
+  v.screen = project_all(v.space, casters.scene->mesh.positions, threads);
+  const int bands = (r.view.height + kBandRows - 1) / kBandRows;
+  v.band_least.resize(static_cast<std::size_t>(bands));
+  parallel_for(bands, threads, [&](int b) {
+    const std::size_t width = static_cast<std::size_t>(r.view.width);
+    const std::size_t first = static_cast<std::size_t>(b) * kBandRows * width;
+    const std::size_t end = std::min(r.nearness.size(), first + kBandRows * width);
+    float least = std::numeric_limits<float>::infinity();
+    bool unknown = false;
+    for (std::size_t k = first; k < end; ++k) {
+      unknown |= std::isnan(r.nearness[k]);
+      least = std::min(least, r.nearness[k]);
+    }
+    v.band_least[static_cast<std::size_t>(b)] =
+        unknown ? -std::numeric_limits<double>::infinity() : static_cast<double>(least);
+  });
+  v.least_nearness = *std::min_element(v.band_least.begin(), v.band_least.end());
+  return v;
+}
+
+// C(e): casters crossed by the segment from the eye to the light. Between two points at infinity
+// there is none.
+std::int32_t count_at_eye(const Casters& casters, const View& view, const Light& light,
+                          ExactStats& stats) {
+  if (is_parallel(view) && light.w == 0) return 0;
+  std::int32_t count = 0;
+  for (std::uint32_t t = 0; t < casters.scene->mesh.triangles.size(); ++t) {
+    if (is_caster(casters, t) &&
+        between_eye_and_light(view, corners_of(*casters.scene, t), light, stats))
+      ++count;
+  }
+  return count;
+}
+
+// As seen from the eye the edge is a point: its side covers nothing. The first test is the plan
+// view's, where every vertical edge is one; the second is exact for any view.
+bool end_on(const View& view, const Vec3& a, const Vec3& b) {
+  if (is_parallel(view) && view.eye.x == 0 && view.eye.y == 0) return a.x == b.x && a.y == b.y;
+  return seen_end_on(view, a, b);
+}
+
+void add_side(LightSetup& s, const ViewSetup& v, const Casters& casters, const View& view,
+              const EquationErrors& errors, const ScreenPoint<double>& minus_light,
+              std::uint32_t index) {
+  const SilhouetteEdge& e = s.silhouette[index];
+  const PolygonEquations<double> q =
+      polygon_equations(v.screen.points[e.a], v.screen.points[e.b], minus_light);
+  const Vec3 &a = casters.scene->mesh.positions[e.a], &b = casters.scene->mesh.positions[e.b];
+  if (std::fabs(q.f) <= errors.f && end_on(view, a, b)) return;
+  Polygon p = set_up(q, errors, v.space, view, side_corners(a, b), s.light, s.stats);
+  set_rows(p, q, errors, v.space, v.least_nearness);
+  if (p.first_row >= p.end_row) return;
+  p.add = -e.multiplicity * p.facing;
+  p.id = index;
+  s.polygons.push_back(p);
+}
+
+void add_casters(LightSetup& s, const ViewSetup& v, const Casters& casters, const View& view,
+                 const std::vector<std::int8_t>& sides) {
+  const Scene& scene = *casters.scene;
+  const EquationErrors errors =
+      equation_errors(v.screen.bound, v.screen.bound, v.screen.bound, view.width, view.height);
+  for (std::uint32_t t = 0; t < scene.mesh.triangles.size(); ++t) {
+    if (!is_caster(casters, t)) continue;
+    const Triangle& c = scene.mesh.triangles[t];
+    const PolygonEquations<double> q =
+        polygon_equations(v.screen.points[c[0]], v.screen.points[c[1]], v.screen.points[c[2]]);
+    Polygon p = set_up(q, errors, v.space, view, corners_of(scene, t), s.light, s.stats);
+    set_rows(p, q, errors, v.space, v.least_nearness);
+    if (p.first_row >= p.end_row) continue;
+    p.add = sides[t] * p.facing;  // +1 from the lit to the unlit side
+    p.id = t;
+    s.polygons.push_back(p);
+  }
+}
+
+void bin_polygons(LightSetup& s, int bands) {
+  s.bin_first.assign(static_cast<std::size_t>(bands) + 1, 0);
+  for (const Polygon& p : s.polygons) {
+    for (int b = p.first_row / kBandRows; b <= (p.end_row - 1) / kBandRows; ++b) {
+      ++s.bin_first[static_cast<std::size_t>(b) + 1];
+    }
+  }
+  for (std::size_t b = 0; b < static_cast<std::size_t>(bands); ++b)
+    s.bin_first[b + 1] += s.bin_first[b];
+  s.bins.resize(s.bin_first.back());
+  std::vector<std::uint32_t> next(s.bin_first.begin(), s.bin_first.end() - 1);
+  for (std::uint32_t i = 0; i < s.polygons.size(); ++i) {
+    const Polygon& p = s.polygons[i];
+    for (int b = p.first_row / kBandRows; b <= (p.end_row - 1) / kBandRows; ++b) {
+      s.bins[next[static_cast<std::size_t>(b)]++] = i;
+    }
+  }
+}
+
+LightSetup set_up_light(const Casters& casters, const Receivers& r, const ViewSetup& v,
+                        const Light& light) {
+  LightSetup s;
+  s.light = snapped(light);
+  const Scene& scene = *casters.scene;
+  const std::vector<std::int8_t> sides = light_sides(scene.mesh, s.light, &s.stats);
+  s.silhouette = find_silhouette(casters.edges, sides);
+  const ScreenPoint<double> minus_light = project(v.space, -s.light);
+  const ScreenPoint<Bound> light_bound = project_bound(v.space, glm::abs(s.light));
+  const EquationErrors errors =
+      equation_errors(v.screen.bound, v.screen.bound, light_bound, r.view.width, r.view.height);
+  s.polygons.reserve(s.silhouette.size());
+  for (std::uint32_t i = 0; i < s.silhouette.size(); ++i) {
+    add_side(s, v, casters, r.view, errors, minus_light, i);
+  }
+  s.sides = s.polygons.size();
+  if (r.casters_in_front) add_casters(s, v, casters, r.view, sides);
+  s.eye_count = count_at_eye(casters, r.view, s.light, s.stats);
+  bin_polygons(s, static_cast<int>(v.band_least.size()));
+  if (r.receivers_not_casting) {
+    s.unlit.assign(scene.mesh.triangles.size(), 0);
+    for (std::uint32_t t = 0; t < s.unlit.size(); ++t) {
+      if (!receives(scene, t) || is_caster(casters, t)) continue;
+      s.unlit[t] = sides[t] != facing(r.view, corners_of(scene, t), s.light, s.stats);
+    }
+  }
+  return s;
+}
+
+class Exact final : public ExactDecisions {
+ public:
+  Exact(const Casters& casters, const Receivers& receivers, const LightSetup& light)
+      : casters_(casters), receivers_(receivers), light_(light) {}
+
+  Span span(const Polygon& p, int row) override {
+    return exact_span(p, {receivers_.view, corners(p), p.facing, light_.light}, row, spans);
+  }
+
+  bool in_front(const Polygon& p, int column, int row) override {
+    const std::uint32_t triangle =
+        receivers_.triangle[static_cast<std::size_t>(row) *
+                                static_cast<std::size_t>(receivers_.view.width) +
+                            static_cast<std::size_t>(column)];
+    if (triangle == kNoTriangle) return false;
+    if (!is_side(p) && p.id == triangle) return false;  // not in front of itself
+    const Corners r = corners_of(*casters_.scene, triangle);
+    if (triangle != last_triangle_) {
+      last_triangle_ = triangle;
+      last_facing_ = facing(receivers_.view, r, light_.light, depths);
+    }
+    ++close;
+    return gnomon::in_front(receivers_.view, column, row, corners(p), p.facing, r, last_facing_,
+                            light_.light, depths);
+  }
+
+  ExactStats spans, depths;
+  std::uint64_t close = 0;  // samples that left the float filter
+
+ private:
+  bool is_side(const Polygon& p) const {
+    return static_cast<std::size_t>(&p - light_.polygons.data()) < light_.sides;
+  }
+
+  Corners corners(const Polygon& p) const {
+    if (!is_side(p)) return corners_of(*casters_.scene, p.id);
+    const SilhouetteEdge& e = light_.silhouette[p.id];
+    return side_corners(casters_.scene->mesh.positions[e.a], casters_.scene->mesh.positions[e.b]);
+  }
+
+  const Casters& casters_;
+  const Receivers& receivers_;
+  const LightSetup& light_;
+  std::uint32_t last_triangle_ = kNoTriangle;
+  int last_facing_ = 0;
+};
+
+// Rows of the picture with everything that does not depend on the light.
+struct BandMemory {
+  int first_row, rows, stride;
+  std::vector<float> nearness;
+  std::vector<std::int32_t> counts;
+
+  BandMemory(const Receivers& r, int band)
+      : first_row(band * kBandRows),
+        rows(std::min(kBandRows, r.view.height - first_row)),
+        stride(r.view.width + kPadding) {
+    const std::size_t width = static_cast<std::size_t>(r.view.width),
+                      step = static_cast<std::size_t>(stride);
+    nearness.assign(static_cast<std::size_t>(rows) * step, std::numeric_limits<float>::infinity());
+    counts.resize(nearness.size());
+    for (std::size_t row = 0; row < static_cast<std::size_t>(rows); ++row) {
+      std::copy_n(r.nearness.data() + (static_cast<std::size_t>(first_row) + row) * width, width,
+                  nearness.data() + row * step);
+    }
+  }
+};
+
+template <class F>
+void for_each_sample(const Receivers& r, BandMemory& m, F f) {
+  for (int row = 0; row < m.rows; ++row) {
+    const std::uint32_t* triangle =
+        r.triangle.data() +
+        static_cast<std::size_t>(m.first_row + row) * static_cast<std::size_t>(r.view.width);
+    std::int32_t* counts =
+        m.counts.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(m.stride);
+    for (int x = 0; x < r.view.width; ++x) {
+      if (triangle[x] != kNoTriangle) f(triangle[x], counts[x]);
+    }
+  }
+}
+
+}  // namespace
+
+Casters prepare_casters(const Scene& scene) {
+  Casters c;
+  c.scene = &scene;
+  const auto all = std::all_of(scene.surfaces.begin(), scene.surfaces.end(),
+                               [](const Surface& s) { return s.casts; });
+  if (!all) {
+    c.selected.resize(scene.mesh.triangles.size());
+    for (std::uint32_t t = 0; t < c.selected.size(); ++t) c.selected[t] = casts(scene, t) ? 1 : 0;
+  }
+  c.edges = build_edge_table(scene.mesh, c.selected);
+  return c;
+}
+
+CountStats count_shadows(const Casters& casters, const Receivers& receivers,
+                         std::span<const Light> lights, const BandSink& sink, int threads) {
+  CountStats stats;
+  std::mutex stats_mutex;
+  const ViewSetup view = set_up_view(casters, receivers, threads);
+  const int bands = static_cast<int>(view.band_least.size());
+  // A third of the edges of closed meshes are on the silhouette of a sun at most; the rest is
+  // refused when it is set up.
+  const std::size_t bytes =
+      std::max<std::size_t>(1, casters.edges.vertices.size() / 3 * sizeof(Polygon));
+  const std::size_t batch = std::clamp<std::size_t>(kBatchBytes / bytes, 1, kBatchLights);
+
+  for (std::size_t begin = 0; begin < lights.size(); begin += batch) {
+    const std::size_t n = std::min(batch, lights.size() - begin);
+    std::vector<LightSetup> setups(n);
+    parallel_for(static_cast<int>(n), threads, [&](int i) {
+      setups[static_cast<std::size_t>(i)] =
+          set_up_light(casters, receivers, view, lights[begin + static_cast<std::size_t>(i)]);
+    });
+    parallel_for(bands, threads, [&](int b) {
+      BandMemory memory(receivers, b);
+      CountStats local;
+      for (std::size_t i = 0; i < n; ++i) {
+        const LightSetup& s = setups[i];
+        std::fill(memory.counts.begin(), memory.counts.end(), 0);
+        if (s.eye_count != 0) {
+          for_each_sample(receivers, memory,
+                          [&](std::uint32_t, std::int32_t& c) { c = s.eye_count; });
+        }
+        Exact exact(casters, receivers, s);
+        BandJob job;
+        job.polygons = s.polygons.data();
+        job.selected = s.bins.data() + s.bin_first[static_cast<std::size_t>(b)];
+        job.count =
+            s.bin_first[static_cast<std::size_t>(b) + 1] - s.bin_first[static_cast<std::size_t>(b)];
+        job.first_row = memory.first_row;
+        job.rows = memory.rows;
+        job.width = receivers.view.width;
+        job.stride = memory.stride;
+        job.nearness = memory.nearness.data();
+        job.counts = memory.counts.data();
+        job.least_nearness = view.band_least[static_cast<std::size_t>(b)];
+        job.nearness_floor = receivers.nearness_floor;
+        job.exact = &exact;
+        fill_band(job);
+        if (!s.unlit.empty()) {
+          for_each_sample(receivers, memory, [&](std::uint32_t t, std::int32_t& c) {
+            if (s.unlit[t] != 0) c = std::max(c, 1);
+          });
+        }
+        sink({static_cast<int>(begin + i), memory.first_row, memory.rows, receivers.view.width,
+              memory.stride, memory.counts.data()});
+        local.spans += exact.spans;
+        local.depths += exact.depths;
+        local.close += exact.close;
+      }
+      const std::lock_guard lock(stats_mutex);
+      stats.spans += local.spans;
+      stats.depths += local.depths;
+      stats.close += local.close;
+    });
+    for (const LightSetup& s : setups) {
+      stats.signs += s.stats;
+      stats.sides += s.silhouette.size();
+      stats.triangles += casters.scene->mesh.triangles.size();
+    }
+  }
+  return stats;
+}
+
+}  // namespace gnomon

@@ -1,0 +1,152 @@
+#include <gtest/gtest.h>
+
+#include "soup.h"
+
+#include <gnomon/raster/count_shadows.h>
+#include <gnomon/raster/visible_surfaces.h>
+
+namespace gnomon {
+namespace {
+
+using test::scene_of;
+
+std::vector<std::int32_t> fast_counts(const Scene& scene, const Receivers& r, const Light& light, int threads = 1) {
+  const Casters casters = prepare_casters(scene);
+  std::vector<std::int32_t> counts(r.triangle.size(), 0);
+  count_shadows(
+      casters, r, std::span(&light, 1),
+      [&](const CountBand& b) {
+        for (int row = 0; row < b.rows; ++row) {
+          for (int x = 0; x < b.width; ++x) {
+            counts[static_cast<std::size_t>((b.first_row + row) * b.width + x)] = b.counts[row * b.stride + x];
+          }
+        }
+      },
+      threads);
+  return counts;
+}
+
+int count_at(const Scene& scene, const View& view, const Light& light, int column, int row) {
+  const Receivers r = visible_surfaces(scene, view);
+  return fast_counts(scene, r, light)[static_cast<std::size_t>(row * view.width + column)];
+}
+
+Scene box_on_ground() {
+  TriMesh m;
+  test::add_ground(m, 50);
+  test::add_box(m, {-5, -5, 0}, {5, 5, 10});
+  return scene_of(std::move(m));
+}
+
+TEST(CountShadows, BoxShadesGroundBehindItTwiceOnceEnteringOnceLeaving) {
+  const Scene scene = box_on_ground();
+  const View view = plan_view({-50, -50, 50, 50}, 1, 0);
+  const Light sun(-1, 0, 1, 0);  // from the west, 45 degrees: the shadow reaches x = 15
+  EXPECT_EQ(count_at(scene, view, sun, 60, 50), 2);  // x = 10.5
+  EXPECT_EQ(count_at(scene, view, sun, 64, 50), 2);  // x = 14.5
+  EXPECT_EQ(count_at(scene, view, sun, 65, 50), 0);  // x = 15.5
+  EXPECT_EQ(count_at(scene, view, sun, 40, 50), 0);  // sunny side
+  EXPECT_EQ(count_at(scene, view, sun, 50, 50), 0);  // roof
+}
+
+TEST(CountShadows, SunBelowAFlatRoofLeavesItInItsOwnShadow) {
+  const Scene scene = box_on_ground();
+  const View view = plan_view({-50, -50, 50, 50}, 1, 0);
+  EXPECT_GT(count_at(scene, view, Light(-1, 0, -0.1, 0), 50, 50), 0);
+}
+
+TEST(CountShadows, ReceiverThatDoesNotCastIsDarkWhereItTurnsAway) {
+  Scene scene = box_on_ground();
+  scene.surfaces[0].casts = false;
+  const View view = plan_view({-50, -50, 50, 50}, 1, 0);
+  EXPECT_EQ(count_at(scene, view, Light(-1, 0, -0.1, 0), 50, 50), 1);
+  EXPECT_EQ(count_at(scene, view, Light(-1, 0, 0.1, 0), 50, 50), 0);
+}
+
+struct Case {
+  const char* name;
+  Scene scene;
+  View view;
+  Light light;
+};
+
+std::vector<Case> hard_cases() {
+  std::vector<Case> cases;
+  const View plan = plan_view({-12, -12, 12, 12}, 1, 0);
+  const View fine = plan_view({-11.3, -12.1, 12, 12}, 0.7, 0);
+  const View camera = perspective_view({14.2, -17.3, 9.1}, {0, 0, 0}, {0, 0, 1}, 0.9, 32, 24);
+  const View inside = perspective_view({0.5, 0.25, 0.125}, {5, 3, -2}, {0, 0, 1}, 1.5, 32, 24);
+  const View parallel = orthographic_view({14.2, -17.3, 9.1}, {0, 0, 0}, {0, 0, 1}, 22, 32, 24);
+  const View on_grid = perspective_view({2, 2, 2}, {2, 12, 2}, {0, 0, 1}, 1.5707963267948966, 24, 24);
+  const Light lights[] = {{-1, 0, 1, 0},     {0.3, 0.5, 0.2, 0},  {0, 0, 1, 0},   {1, 1, 0, 0},
+                          {0.7, -0.7, -0.3, 0}, {2.5, 3.5, 7.25, 1}, {2, 2, 2, 1}, {0.5, 0.25, 0.125, 1},
+                          {100, 50, 80, 1},  {-3, 4, -6, 1}};
+  for (unsigned seed = 1; seed <= 2; ++seed) {
+    for (const double grid : {0.0, 2.0}) {
+      for (const Light& light : lights) {
+        for (const View& view : {plan, fine, camera, inside, parallel, on_grid}) {
+          TriMesh m;
+          test::add_soup(m, 12, 8, grid, seed);
+          if (seed == 2) {
+            test::add_ground(m, 10, -8);
+            test::add_box(m, {-4, -2, -8}, {2, 4, 2});
+          }
+          cases.push_back({grid > 0 ? "grid" : "random", scene_of(std::move(m)), view, light});
+        }
+      }
+    }
+  }
+  return cases;
+}
+
+TEST(CountShadows, FastFormEqualsTheSpecificationOnSoupsWithTies) {
+  std::size_t k = 0;
+  for (const Case& c : hard_cases()) {
+    const Receivers r = visible_surfaces(c.scene, c.view);
+    ASSERT_EQ(fast_counts(c.scene, r, c.light), count_shadows_reference(prepare_casters(c.scene), r, c.light))
+        << c.name << " case " << k;
+    ++k;
+  }
+}
+
+TEST(CountShadows, FastFormEqualsTheSpecificationWhereCastersHideReceivers) {
+  std::size_t k = 0;
+  for (Case& c : hard_cases()) {
+    // Every other triangle receives and does not cast, so rays pass through casters before they reach their sample.
+    c.scene.surfaces.push_back({});
+    c.scene.surfaces[0].receives = false;
+    c.scene.surfaces[1].casts = false;
+    for (std::size_t t = 0; t < c.scene.surface_of.size(); t += 2) c.scene.surface_of[t] = 1;
+    const Receivers r = visible_surfaces(c.scene, c.view);
+    ASSERT_EQ(fast_counts(c.scene, r, c.light), count_shadows_reference(prepare_casters(c.scene), r, c.light))
+        << c.name << " case " << k;
+    ++k;
+  }
+}
+
+TEST(CountShadows, CountsAreNeverNegative) {
+  for (const Case& c : hard_cases()) {
+    const Receivers r = visible_surfaces(c.scene, c.view);
+    for (const std::int32_t n : fast_counts(c.scene, r, c.light)) ASSERT_GE(n, 0);
+  }
+}
+
+TEST(CountShadows, MasksDoNotDependOnThreadsOrderOrWinding) {
+  std::mt19937 random(7);
+  for (const Case& c : hard_cases()) {
+    const Receivers r = visible_surfaces(c.scene, c.view);
+    const auto expected = fast_counts(c.scene, r, c.light);
+    EXPECT_EQ(fast_counts(c.scene, r, c.light, 2), expected);
+    EXPECT_EQ(fast_counts(c.scene, r, c.light, 7), expected);
+    Scene shuffled = c.scene;
+    std::shuffle(shuffled.mesh.triangles.begin(), shuffled.mesh.triangles.end(), random);
+    for (Triangle& t : shuffled.mesh.triangles) {
+      if (random() & 1) std::swap(t[1], t[2]);
+    }
+    const Receivers again = visible_surfaces(shuffled, c.view, 3);
+    EXPECT_EQ(fast_counts(shuffled, again, c.light), expected);
+  }
+}
+
+}  // namespace
+}  // namespace gnomon
