@@ -1,0 +1,559 @@
+// The steps of docs/ground.md. Unions, differences and constrained Delaunay triangulations are
+// those of GEOS (OverlayNG).
+#include <gnomon/io/ground.h>
+
+#include <geos_c.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <unordered_map>
+#include <unordered_set>
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <gnomon/io/footprints.h>
+
+namespace gnomon {
+namespace {
+
+// Points around the model at which the ground stops following the buildings: one every 25 to 100 m,
+// as near to 200 in all as that allows, and as far away from the model as from each other (metres).
+constexpr double kRingMin = 25, kRingMax = 100, kRingPoints = 200;
+
+// A vertex of the union lies on the footprint edge it came from up to the rounding of an
+// intersection point, some 1e-10 m at coordinates of 1e6 m, or GEOS' snapping of 1e-12 of them.
+// Real vertices are a millimetre apart. In between, in metres:
+constexpr double kOnEdge = 1e-6;
+
+// Faces of the linework must cover the region; their areas are sums of rounded products, hence not
+// exactly. Relative.
+constexpr double kSameArea = 1e-9;
+
+// ---- GEOS, owned
+// -------------------------------------------------------------------------------------------------
+
+struct Geos {
+  GEOSContextHandle_t handle = GEOS_init_r();
+  std::string message;  // the last thing GEOS complained of
+  Geos() {
+    GEOSContext_setErrorMessageHandler_r(
+        handle, [](const char* text, void* self) { static_cast<Geos*>(self)->message = text; },
+        this);
+  }
+  ~Geos() { GEOS_finish_r(handle); }
+  Geos(const Geos&) = delete;
+  Geos& operator=(const Geos&) = delete;
+};
+
+struct GeomDeleter {
+  GEOSContextHandle_t handle;
+  void operator()(GEOSGeometry* g) const { GEOSGeom_destroy_r(handle, g); }
+};
+using Geom = std::unique_ptr<GEOSGeometry, GeomDeleter>;
+
+Geom own(const Geos& geos, GEOSGeometry* g) { return Geom(g, GeomDeleter{geos.handle}); }
+
+Geom line(const Geos& geos, const std::vector<Vec2>& points, bool ring) {
+  GEOSCoordSequence* s =
+      GEOSCoordSeq_create_r(geos.handle, static_cast<unsigned>(points.size()), 2);
+  for (unsigned k = 0; k < points.size(); ++k) {
+    GEOSCoordSeq_setXY_r(geos.handle, s, k, points[k].x, points[k].y);
+  }
+  return own(geos, ring ? GEOSGeom_createLinearRing_r(geos.handle, s)
+                        : GEOSGeom_createLineString_r(geos.handle, s));
+}
+
+// `ring` is closed: the first point repeated at the end.
+Geom polygon(const Geos& geos, const std::vector<Vec2>& ring) {
+  return own(geos,
+             GEOSGeom_createPolygon_r(geos.handle, line(geos, ring, true).release(), nullptr, 0));
+}
+
+Geom collection(const Geos& geos, int type, std::vector<Geom>&& parts) {
+  std::vector<GEOSGeometry*> raw;
+  for (Geom& g : parts) raw.push_back(g.release());
+  return own(geos, GEOSGeom_createCollection_r(geos.handle, type, raw.data(),
+                                               static_cast<unsigned>(raw.size())));
+}
+
+std::vector<Vec2> points_of(const Geos& geos, const GEOSGeometry* line_or_ring) {
+  const GEOSCoordSequence* s = GEOSGeom_getCoordSeq_r(geos.handle, line_or_ring);
+  unsigned n = 0;
+  GEOSCoordSeq_getSize_r(geos.handle, s, &n);
+  std::vector<Vec2> points(n);
+  for (unsigned k = 0; k < n; ++k) {
+    GEOSCoordSeq_getXY_r(geos.handle, s, k, &points[k].x, &points[k].y);
+  }
+  return points;
+}
+
+void for_each_polygon(const Geos& geos, const GEOSGeometry* g,
+                      const std::function<void(const GEOSGeometry*)>& visit) {
+  if (GEOSGeomTypeId_r(geos.handle, g) == GEOS_POLYGON) {
+    if (GEOSisEmpty_r(geos.handle, g) == 0) visit(g);
+    return;
+  }
+  const int n = GEOSGetNumGeometries_r(geos.handle, g);
+  if (GEOSGeomTypeId_r(geos.handle, g) < GEOS_MULTIPOINT) return;  // a point or a line
+  for (int k = 0; k < n; ++k) for_each_polygon(geos, GEOSGetGeometryN_r(geos.handle, g, k), visit);
+}
+
+// Calls visit(ring) for the outer ring and the holes, each with the polygon's inside on its left.
+void for_each_ring(const Geos& geos, const GEOSGeometry* poly,
+                   const std::function<void(const std::vector<Vec2>&)>& visit) {
+  const int holes = GEOSGetNumInteriorRings_r(geos.handle, poly);
+  for (int k = -1; k < holes; ++k) {
+    const GEOSGeometry* ring = k < 0 ? GEOSGetExteriorRing_r(geos.handle, poly)
+                                     : GEOSGetInteriorRingN_r(geos.handle, poly, k);
+    std::vector<Vec2> points = points_of(geos, ring);
+    char counter_clockwise = 1;
+    GEOSCoordSeq_isCCW_r(geos.handle, GEOSGeom_getCoordSeq_r(geos.handle, ring),
+                         &counter_clockwise);
+    if ((counter_clockwise != 0) != (k < 0)) std::reverse(points.begin(), points.end());
+    visit(points);
+  }
+}
+
+double area(const Geos& geos, const GEOSGeometry* g) {
+  double a = 0;
+  GEOSArea_r(geos.handle, g, &a);
+  return a;
+}
+
+// ---- vertices and heights
+// ------------------------------------------------------------------------------------
+
+// Numbers points of the plane by their exact coordinates.
+struct PointIds {
+  struct Hash {
+    std::size_t operator()(const std::array<std::uint64_t, 2>& k) const {
+      return (k[0] * 0x9E3779B97F4A7C15u) ^ ((k[1] * 0xC2B2AE3D27D4EB4Fu) >> 7);
+    }
+  };
+  std::unordered_map<std::array<std::uint64_t, 2>, std::uint32_t, Hash> ids;
+  std::vector<Vec2> points;
+
+  std::uint32_t operator()(const Vec2& p) {
+    const std::array<std::uint64_t, 2> key = {std::bit_cast<std::uint64_t>(p.x + 0.0),
+                                              std::bit_cast<std::uint64_t>(p.y + 0.0)};
+    const auto [at, is_new] = ids.emplace(key, static_cast<std::uint32_t>(points.size()));
+    if (is_new) points.push_back(p);
+    return at->second;
+  }
+};
+
+using Edge = std::array<Vec3, 2>;
+
+// The edges of all footprints, found by place: a uniform grid of cells about as large as an edge is
+// long.
+class EdgeFinder {
+ public:
+  explicit EdgeFinder(std::vector<Edge> edges) : edges_(std::move(edges)) {
+    double length = 0;
+    for (const Edge& e : edges_) length += glm::length(e[1] - e[0]);
+    cell_ = std::max(1.0, length / static_cast<double>(std::max<std::size_t>(1, edges_.size())));
+    for (std::uint32_t k = 0; k < edges_.size(); ++k) {
+      const Vec3 low = glm::min(edges_[k][0], edges_[k][1]);
+      const Vec3 high = glm::max(edges_[k][0], edges_[k][1]);
+      for (std::int64_t x = cell(low.x - kOnEdge); x <= cell(high.x + kOnEdge); ++x) {
+        for (std::int64_t y = cell(low.y - kOnEdge); y <= cell(high.y + kOnEdge); ++y) {
+          cells_[key(x, y)].push_back(k);
+        }
+      }
+    }
+  }
+
+  // The heights at u and v of the lowest footprint edge that runs through both; false if there is
+  // none.
+  bool heights(const Vec2& u, const Vec2& v, double& zu, double& zv) const {
+    const auto at = cells_.find(key(cell(u.x), cell(u.y)));
+    if (at == cells_.end()) return false;
+    bool found = false;
+    for (const std::uint32_t k : at->second) {
+      double a, b;
+      if (!height_on(edges_[k], u, a) || !height_on(edges_[k], v, b)) continue;
+      if (!found || a + b < zu + zv) zu = a, zv = b;
+      found = true;
+    }
+    return found;
+  }
+
+ private:
+  static bool height_on(const Edge& e, const Vec2& p, double& z) {
+    const Vec2 a(e[0].x, e[0].y), b(e[1].x, e[1].y);
+    // The ends exactly, so that ground and building share the vertex.
+    if (p == a) return z = e[0].z, true;
+    if (p == b) return z = e[1].z, true;
+    const Vec2 d = b - a;
+    const double length = glm::length(d);
+    if (length == 0) return false;
+    const double along = glm::dot(p - a, d) / length;
+    const double beside = ((p.x - a.x) * d.y - (p.y - a.y) * d.x) / length;
+    if (std::abs(beside) > kOnEdge || along < -kOnEdge || along > length + kOnEdge) return false;
+    const double s = std::clamp(along / length, 0.0, 1.0);
+    z = e[0].z == e[1].z ? e[0].z : e[0].z + s * (e[1].z - e[0].z);
+    return true;
+  }
+  std::int64_t cell(double c) const { return static_cast<std::int64_t>(std::floor(c / cell_)); }
+  static std::uint64_t key(std::int64_t x, std::int64_t y) {
+    return static_cast<std::uint64_t>(x) * 0x9E3779B97F4A7C15u + static_cast<std::uint64_t>(y);
+  }
+
+  std::vector<Edge> edges_;
+  double cell_ = 1;
+  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
+};
+
+// ---- the surface
+// Precondition: `points` is not empty.
+double nearest_height(const std::vector<Vec3>& points, const Vec2& p) {
+  const auto rank = [&](const Vec3& q) {
+    return std::pair((q.x - p.x) * (q.x - p.x) + (q.y - p.y) * (q.y - p.y), q.z);
+  };
+  return std::min_element(points.begin(), points.end(),
+                          [&](const Vec3& a, const Vec3& b) { return rank(a) < rank(b); })
+      ->z;
+}
+
+// -------------------------------------------------------------------------------------------------
+
+struct Surface3 {
+  std::vector<Vec3> positions;
+  std::vector<Triangle> triangles;
+
+  std::uint32_t add(const Vec3& p) {
+    positions.push_back(p);
+    return static_cast<std::uint32_t>(positions.size() - 1);
+  }
+};
+
+void add_rectangle(Surface3& out, const Bounds2& b, double z) {
+  const std::uint32_t k = out.add({b.x0, b.y0, z});
+  out.add({b.x1, b.y0, z});
+  out.add({b.x1, b.y1, z});
+  out.add({b.x0, b.y1, z});
+  out.triangles.push_back({k, k + 1, k + 2});
+  out.triangles.push_back({k, k + 2, k + 3});
+}
+
+// The sides of `b`, counter-clockwise from (x0, y0), `per_side` points each (first corner included,
+// last not).
+std::array<std::vector<Vec2>, 4> sides_of(const Bounds2& b, int along_x, int along_y) {
+  std::array<std::vector<Vec2>, 4> sides;
+  for (int k = 0; k < along_x; ++k) {
+    const double s = (b.x1 - b.x0) * k / along_x;
+    sides[0].push_back({b.x0 + s, b.y0});
+    sides[2].push_back({b.x1 - s, b.y1});
+  }
+  for (int k = 0; k < along_y; ++k) {
+    const double s = (b.y1 - b.y0) * k / along_y;
+    sides[1].push_back({b.x1, b.y0 + s});
+    sides[3].push_back({b.x0, b.y1 - s});
+  }
+  return sides;
+}
+
+// Level beyond: from the ring outwards to `outer` every point has the height of the ring point
+// before it.
+void add_frame(Surface3& out, const std::array<std::vector<Vec2>, 4>& sides, const Bounds2& outer,
+               const std::function<double(const Vec2&)>& height) {
+  const Vec2 outwards[4] = {{0, -1}, {1, 0}, {0, 1}, {-1, 0}};
+  const auto pushed = [&](Vec2 p, int side) {
+    if (outwards[side].x > 0) p.x = outer.x1;
+    if (outwards[side].x < 0) p.x = outer.x0;
+    if (outwards[side].y > 0) p.y = outer.y1;
+    if (outwards[side].y < 0) p.y = outer.y0;
+    return p;
+  };
+  const auto quad = [&](const std::array<Vec3, 4>& c) {  // counter-clockwise
+    std::uint32_t id[4];
+    for (int k = 0; k < 4; ++k) id[k] = out.add(c[k]);
+    for (const std::array<int, 3>& t : {std::array<int, 3>{0, 1, 2}, std::array<int, 3>{0, 2, 3}}) {
+      if (turn(c[t[0]], c[t[1]], c[t[2]]) > 0) {
+        out.triangles.push_back({id[t[0]], id[t[1]], id[t[2]]});
+      }
+    }
+  };
+  for (int side = 0; side < 4; ++side) {
+    std::vector<Vec2> points = sides[side];
+    points.push_back(sides[(side + 1) % 4].front());
+    for (std::size_t k = 0; k + 1 < points.size(); ++k) {
+      const Vec2 a = points[k], b = points[k + 1], oa = pushed(a, side), ob = pushed(b, side);
+      const double za = height(a), zb = height(b);
+      quad({Vec3(a, za), Vec3(oa, za), Vec3(ob, zb), Vec3(b, zb)});
+    }
+    const Vec2 corner = points.back();
+    const double z = height(corner);
+    const int next = (side + 1) % 4;
+    quad({Vec3(corner, z), Vec3(pushed(corner, side), z),
+          Vec3(pushed(pushed(corner, side), next), z), Vec3(pushed(corner, next), z)});
+  }
+}
+
+// Splits `region` along the lower edges of open objects, so that they become edges of the ground.
+// Null if that fails.
+Geom split_by(const Geos& geos, const GEOSGeometry* region, const std::vector<Edge>& edges) {
+  std::vector<Geom> lines;
+  lines.push_back(own(geos, GEOSBoundary_r(geos.handle, region)));
+  for (const Edge& e : edges) {
+    lines.push_back(line(geos, {{e[0].x, e[0].y}, {e[1].x, e[1].y}}, false));
+  }
+  const Geom all = collection(geos, GEOS_GEOMETRYCOLLECTION, std::move(lines));
+  const Geom noded = own(geos, GEOSUnaryUnion_r(geos.handle, all.get()));
+  if (!noded) return own(geos, nullptr);
+  const GEOSGeometry* input = noded.get();
+  const Geom faces = own(geos, GEOSPolygonize_r(geos.handle, &input, 1));
+  if (!faces) return own(geos, nullptr);
+  const std::unique_ptr<const GEOSPreparedGeometry,
+                        std::function<void(const GEOSPreparedGeometry*)>>
+      prepared(GEOSPrepare_r(geos.handle, region),
+               [&](const GEOSPreparedGeometry* p) { GEOSPreparedGeom_destroy_r(geos.handle, p); });
+  std::vector<Geom> kept;
+  for_each_polygon(geos, faces.get(), [&](const GEOSGeometry* face) {
+    const Geom inside = own(geos, GEOSPointOnSurface_r(geos.handle, face));
+    if (inside && GEOSPreparedIntersects_r(geos.handle, prepared.get(), inside.get()) == 1) {
+      kept.push_back(own(geos, GEOSGeom_clone_r(geos.handle, face)));
+    }
+  });
+  Geom result = collection(geos, GEOS_GEOMETRYCOLLECTION, std::move(kept));
+  const double expected = area(geos, region);
+  if (std::abs(area(geos, result.get()) - expected) > kSameArea * expected) result.reset();
+  return result;
+}
+
+// Where the constrained triangulation fails: Delaunay of the vertices, without the triangles whose
+// middle is not in the region.
+Geom unconstrained(const Geos& geos, const GEOSGeometry* region) {
+  const Geom all = own(geos, GEOSDelaunayTriangulation_r(geos.handle, region, 0.0, 0));
+  if (!all) return own(geos, nullptr);
+  std::vector<Geom> kept;
+  for_each_polygon(geos, all.get(), [&](const GEOSGeometry* t) {
+    const Geom middle = own(geos, GEOSGetCentroid_r(geos.handle, t));
+    if (middle && GEOSIntersects_r(geos.handle, region, middle.get()) == 1) {
+      kept.push_back(own(geos, GEOSGeom_clone_r(geos.handle, t)));
+    }
+  });
+  return collection(geos, GEOS_GEOMETRYCOLLECTION, std::move(kept));
+}
+
+Result<Surface3> through(const Footprints& feet, const Bounds2& model, const Bounds2& extent,
+                         Warnings& warnings) {
+  Geos geos;
+  const auto failed = [&](const char* what) {
+    return Error{
+        fmt::format("the ground could not be made: {} failed ({}); give its height with "
+                    "--ground Z, or --ground none",
+                    what, geos.message)};
+  };
+
+  std::vector<Edge> edges = feet.open;
+  std::vector<Geom> triangles;
+  for (const std::array<Vec3, 3>& t : feet.closed) {
+    for (int k = 0; k < 3; ++k) edges.push_back({t[k], t[(k + 1) % 3]});
+    const Vec2 a(t[0].x, t[0].y);
+    triangles.push_back(polygon(geos, {a, {t[1].x, t[1].y}, {t[2].x, t[2].y}, a}));
+  }
+  const double z0 = edges.front()[0].z;
+  const bool flat = std::all_of(edges.begin(), edges.end(),
+                                [&](const Edge& e) { return e[0].z == z0 && e[1].z == z0; });
+  const EdgeFinder finder(std::move(edges));
+
+  // Ring and outer rectangle. Flat ground needs no ring: the rectangle itself is level.
+  const double around = 2 * (model.x1 - model.x0 + model.y1 - model.y0);
+  const double spacing = std::clamp(around / kRingPoints, kRingMin, kRingMax);
+  Bounds2 ring{model.x0 - spacing, model.y0 - spacing, model.x1 + spacing, model.y1 + spacing};
+  const Bounds2 outer{std::min(ring.x0, extent.x0), std::min(ring.y0, extent.y0),
+                      std::max(ring.x1, extent.x1), std::max(ring.y1, extent.y1)};
+  if (flat) ring = outer;
+  const auto count = [&](double side) {
+    return flat ? 1 : static_cast<int>(std::ceil(side / spacing));
+  };
+  const auto sides = sides_of(ring, count(ring.x1 - ring.x0), count(ring.y1 - ring.y0));
+  std::vector<Vec2> ring_points;
+  for (const auto& side : sides) ring_points.insert(ring_points.end(), side.begin(), side.end());
+  ring_points.push_back(ring_points.front());
+
+  // Region: inside the ring, outside the footprints.
+  Geom region = polygon(geos, ring_points);
+  if (!triangles.empty()) {
+    const Geom soup = collection(geos, GEOS_MULTIPOLYGON, std::move(triangles));
+    const Geom closed = own(geos, GEOSUnaryUnion_r(geos.handle, soup.get()));
+    if (!closed) return failed("the union of the footprints");
+    region = own(geos, GEOSDifference_r(geos.handle, region.get(), closed.get()));
+    if (!region) return failed("cutting the footprints out of the ground");
+  }
+  if (!feet.open.empty()) {
+    if (Geom faces = split_by(geos, region.get(), feet.open)) {
+      region = std::move(faces);
+    } else {
+      warn(warnings,
+           "The lower edges of objects without a bottom could not be worked into the ground; they "
+           "may stand a little "
+           "above or below it.",
+           "", feet.open.size());
+    }
+  }
+  Geom mesh = own(geos, GEOSConstrainedDelaunayTriangulation_r(geos.handle, region.get()));
+  if (!mesh) {
+    warn(warnings,
+         "The ground between the footprints could not be triangulated along their edges; it was "
+         "without them, and may "
+         "cut into buildings.",
+         geos.message);
+    mesh = unconstrained(geos, region.get());
+    if (!mesh) return failed("the triangulation");
+  }
+
+  // Heights: on an edge of the region, those of the lowest footprint edge there; the lowest of both
+  // edges at a vertex.
+  constexpr double kUnknown = std::numeric_limits<double>::infinity();
+  struct Border {
+    std::uint32_t u, v;
+    double zu, zv;
+  };
+  PointIds id;
+  std::vector<double> z;
+  const auto height_of = [&](std::uint32_t k) -> double& {
+    if (z.size() <= k) z.resize(k + 1, kUnknown);
+    return z[k];
+  };
+  std::vector<Border> borders;
+  std::unordered_set<std::uint64_t> seen;
+  for_each_polygon(geos, region.get(), [&](const GEOSGeometry* face) {
+    for_each_ring(geos, face, [&](const std::vector<Vec2>& points) {
+      for (std::size_t k = 0; k + 1 < points.size(); ++k) {
+        Border b{id(points[k]), id(points[k + 1]), 0, 0};
+        if (!finder.heights(points[k], points[k + 1], b.zu, b.zv)) continue;
+        height_of(b.u) = std::min(height_of(b.u), b.zu);
+        height_of(b.v) = std::min(height_of(b.v), b.zv);
+        const std::uint64_t low = std::min(b.u, b.v), high = std::max(b.u, b.v);
+        if (seen.insert(low << 32 | high).second) borders.push_back(b);
+      }
+    });
+  });
+
+  Surface3 out;
+  for_each_polygon(geos, mesh.get(), [&](const GEOSGeometry* t) {
+    const std::vector<Vec2> p = points_of(geos, GEOSGetExteriorRing_r(geos.handle, t));
+    Triangle v = {id(p[0]), id(p[1]), id(p[2])};
+    const int side = turn(Vec3(p[0], 0), Vec3(p[1], 0), Vec3(p[2], 0));
+    if (side == 0) return;
+    if (side < 0) std::swap(v[1], v[2]);
+    out.triangles.push_back(v);
+  });
+  // All others, those of the ring, have the height of the nearest footprint vertex (the lowest of
+  // several).
+  std::vector<Vec3> known;
+  for (std::uint32_t k = 0; k < id.points.size(); ++k) {
+    if (height_of(k) != kUnknown) known.push_back(Vec3(id.points[k], z[k]));
+  }
+  // Lower edges that enclose nothing have left no vertex in the ground, only their heights.
+  if (known.empty()) {
+    for (const Edge& e : feet.open) known.insert(known.end(), e.begin(), e.end());
+  }
+  for (std::uint32_t k = 0; k < id.points.size(); ++k) {
+    const Vec2 p = id.points[k];
+    if (z[k] == kUnknown) z[k] = flat ? z0 : nearest_height(known, p);
+    out.positions.push_back(Vec3(p, z[k]));
+  }
+  // Where a building meets a lower neighbour the ground dips to the lower one; an upright skirt
+  // closes what would be a gap below the higher one's edge.
+  for (const Border& b : borders) {
+    const bool at_u = b.zu > z[b.u], at_v = b.zv > z[b.v];
+    const Vec3 top_u(id.points[b.u], b.zu), top_v(id.points[b.v], b.zv);
+    const std::uint32_t u = at_u ? out.add(top_u) : b.u;
+    const std::uint32_t v = at_v ? out.add(top_v) : b.v;
+    if (at_u) out.triangles.push_back({b.u, u, b.v});
+    if (at_v) out.triangles.push_back({b.v, u, v});
+  }
+  if (!flat) {
+    add_frame(out, sides, outer, [&](const Vec2& p) { return z[id(p)]; });
+  }
+  return out;
+}
+
+// ---- modes
+// ---- modes ----------------------------------------------------------------------------------
+
+// The rectangle around everything and its lowest point; `extent` alone for an empty scene.
+struct Hull {
+  Bounds2 bounds;
+  double lowest = 0;
+};
+Hull hull_of(const Scene& scene, const Bounds2& extent) {
+  if (scene.mesh.triangles.empty()) return {extent, 0};
+  Vec3 low(std::numeric_limits<double>::infinity()), high(-low);
+  for (const Triangle& t : scene.mesh.triangles) {
+    for (const std::uint32_t v : t) {
+      low = glm::min(low, scene.mesh.positions[v]);
+      high = glm::max(high, scene.mesh.positions[v]);
+    }
+  }
+  return {{low.x, low.y, high.x, high.y}, low.z};
+}
+
+void add_to_scene(Scene& scene, const Surface3& ground) {
+  Surface surface;
+  surface.object = surface.group = surface.semantic = "Ground";
+  scene.surfaces.push_back(surface);
+  const auto index = static_cast<std::uint32_t>(scene.surfaces.size() - 1);
+  const auto base = static_cast<std::uint32_t>(scene.mesh.positions.size());
+  scene.mesh.positions.insert(scene.mesh.positions.end(), ground.positions.begin(),
+                              ground.positions.end());
+  for (const Triangle& t : ground.triangles) {
+    scene.mesh.triangles.push_back({t[0] + base, t[1] + base, t[2] + base});
+    scene.surface_of.push_back(index);
+  }
+}
+
+}  // namespace
+
+Result<GroundReport> add_ground(Scene& scene, const GroundOptions& options) {
+  if (options.mode == "none") return GroundReport{"none", 0};
+
+  const Hull hull = hull_of(scene, options.extent);
+  const Bounds2 all{
+      std::min(hull.bounds.x0, options.extent.x0), std::min(hull.bounds.y0, options.extent.y0),
+      std::max(hull.bounds.x1, options.extent.x1), std::max(hull.bounds.y1, options.extent.y1)};
+  const auto level = [&](double z) -> Result<GroundReport> {
+    if (!(all.x1 > all.x0 && all.y1 > all.y0)) {
+      return Error{"the ground has no extent: the model has no width; give --bounds"};
+    }
+    Surface3 ground;
+    add_rectangle(ground, all, z);
+    add_to_scene(scene, ground);
+    return GroundReport{"level", ground.triangles.size()};
+  };
+
+  if (options.mode != "auto") {
+    char* end = nullptr;
+    const double z = std::strtod(options.mode.c_str(), &end);
+    if (options.mode.empty() || *end != '\0' || !std::isfinite(z)) {
+      return Error{"the ground '" + options.mode +
+                   "' is not understood; give auto, none or a height in metres"};
+    }
+    return level(z - scene.frame.origin.z);
+  }
+
+  for (const std::uint32_t s : scene.surface_of) {
+    if (is_terrain(scene.surfaces[s])) return GroundReport{"model terrain", 0};
+  }
+  const Footprints feet = find_footprints(scene);
+  if (feet.closed.empty() && feet.open.empty()) return level(hull.lowest);
+  Result<Surface3> ground = through(feet, hull.bounds, options.extent, scene.warnings);
+  if (!ground) return ground.error();
+  add_to_scene(scene, ground.value());
+  return GroundReport{feet.one_object ? "level" : "through ground surfaces",
+                      ground.value().triangles.size()};
+}
+
+}  // namespace gnomon
