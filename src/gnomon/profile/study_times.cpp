@@ -214,8 +214,8 @@ Result<LocalDay> local_day(const std::string& date, const std::string& zone, con
   return found.value().day;
 }
 
-Result<Samples> study_samples(const StudyTimes& times, const Place& place, double true_north,
-                              const Atmosphere& air) {
+Result<StudyWindow> study_window(const StudyTimes& times, const Place& place,
+                                 const Atmosphere& air) {
   const auto step = read_step(times.every);
   if (!step)
     return Error{"the step '" + times.every +
@@ -227,32 +227,46 @@ Result<Samples> study_samples(const StudyTimes& times, const Place& place, doubl
   if (!found) return found.error();
   const Date& date = found.value();
 
-  Samples samples;
-  const Result<Instant> from =
-      find_end({"--from", times.from, date.day.arc.sunrise, date.day.begin}, date, times, place,
-               samples.warnings);
-  if (!from) return from.error();
-  const Result<Instant> to = find_end({"--to", times.to, date.day.arc.sunset, date.day.end}, date,
-                                      times, place, samples.warnings);
-  if (!to) return to.error();
-  samples.begin = from.value();
-  samples.end = to.value();
-  if (samples.begin >= samples.end)
-    return Error{"the window is empty: it begins at " + iso_text(samples.begin) + " and ends at " +
-                 iso_text(samples.end) +
-                 "; give --from earlier than --to, on the date's own clock"};
-  const milliseconds window = samples.end - samples.begin;
-  if (window / *step >= kMostSteps)
+  StudyWindow window;
+  window.step = *step;
+  const End from{"--from", times.from, date.day.arc.sunrise, date.day.begin};
+  const Result<Instant> begin = find_end(from, date, times, place, window.warnings);
+  if (!begin) return begin.error();
+  const End to{"--to", times.to, date.day.arc.sunset, date.day.end};
+  const Result<Instant> end = find_end(to, date, times, place, window.warnings);
+  if (!end) return end.error();
+  window.begin = begin.value();
+  window.end = end.value();
+  if (window.begin >= window.end)
+    return Error{"the window is empty: it begins at " + iso_text(window.begin) + " and ends at " +
+                 iso_text(window.end) + "; give --from earlier than --to, on the date's own clock"};
+  const milliseconds length = window.end - window.begin;
+  if ((length + *step - milliseconds(1)) / *step > kMostSteps)
     return Error{"the step '" + times.every + "' cuts the window into more than " +
                  std::to_string(kMostSteps) + " steps: give a longer --every"};
 
   const Instant noon = date.day.begin + (date.day.end - date.day.begin) / 2;
   if (times.zone != "UTC" && std::chrono::abs(date.day.arc.transit - noon) > kStrangeNoon)
-    warn(samples.warnings,
+    warn(window.warnings,
          "the sun is highest more than 5 hours from 12:00 on this clock: check --tz and the "
          "place's longitude",
          times.zone);
+  if (length % *step != milliseconds(0))
+    warn(window.warnings, "the window is not a whole number of steps: the last step is shorter",
+         times.every);
+  return window;
+}
 
+Result<Samples> study_samples(const StudyTimes& times, const Place& place, double true_north,
+                              const Atmosphere& air) {
+  const Result<StudyWindow> found = study_window(times, place, air);
+  if (!found) return found.error();
+  const StudyWindow& window = found.value();
+
+  Samples samples;
+  samples.begin = window.begin;
+  samples.end = window.end;
+  samples.warnings = window.warnings;
   const auto sample = [&](Instant utc, milliseconds weight) {
     TimeSample s;
     s.utc = utc;
@@ -264,21 +278,17 @@ Result<Samples> study_samples(const StudyTimes& times, const Place& place, doubl
   };
   std::size_t nights = 0;
   std::string first_night;
-  for (Instant t = samples.begin; t < samples.end; t += *step) {
-    const milliseconds length = std::min(*step, samples.end - t);
+  for (Instant t = window.begin; t < window.end; t += window.step) {
+    const milliseconds length = std::min(window.step, window.end - t);
     samples.midpoints.push_back(sample(t + length / 2, length));
     samples.instants.push_back(sample(t, milliseconds(0)));
-    if (!samples.midpoints.back().up && nights++ == 0)
-      first_night = iso_text(samples.midpoints.back().utc);
+    const TimeSample& middle = samples.midpoints.back();
+    if (!middle.up && nights++ == 0) first_night = iso_text(middle.utc);
   }
-  samples.instants.push_back(sample(samples.end, milliseconds(0)));
-
+  samples.instants.push_back(sample(window.end, milliseconds(0)));
   warn(samples.warnings,
        "the sun is below the horizon in the middle of this step: the step contributes nothing",
        first_night, nights);
-  if (window % *step != milliseconds(0))
-    warn(samples.warnings, "the window is not a whole number of steps: the last step is shorter",
-         times.every);
   return samples;
 }
 

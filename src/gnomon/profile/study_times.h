@@ -37,6 +37,13 @@ struct LocalDay {
 Result<LocalDay> local_day(const std::string& date, const std::string& zone, const Place& place,
                            const Atmosphere& air = {});
 
+// A study's window and step.
+struct StudyWindow {
+  Instant begin, end;
+  std::chrono::milliseconds step{0};  // positive, at most 24 h
+  Warnings warnings;                  // e.g. an ambiguous local time, a last step that is shorter
+};
+
 // One moment of the study.
 struct TimeSample {
   Instant utc;
@@ -61,6 +68,10 @@ struct Samples {
 // to, local time that does not exist (spring forward: named), sun down all day and no from or to, a
 // step over 24 h, more than 100000 steps. Ambiguous local time (autumn): the earlier one is taken,
 // with a warning.
+Result<StudyWindow> study_window(const StudyTimes& times, const Place& place,
+                                 const Atmosphere& air = {});
+
+// The window cut into steps, with the sun's positions. Errors and warnings as study_window.
 Result<Samples> study_samples(const StudyTimes& times, const Place& place, double true_north,
                               const Atmosphere& air = {});
 
