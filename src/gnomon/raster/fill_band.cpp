@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <gnomon/raster/add_where_positive.h>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "gnomon/raster/fill_band.cpp"
 #include <hwy/foreach_target.h>

@@ -45,11 +45,4 @@ inline constexpr int kPadding =
 
 void fill_band(const BandJob& job);
 
-// Adds weight to sums[k] where counts[k] > 0.
-void add_where_positive(const std::int32_t* counts, int n, std::uint32_t weight,
-                        std::uint32_t* sums);
-
-// Name of the instruction set in use ("AVX3", "AVX2", "SCALAR", ...).
-const char* instruction_set();
-
 }  // namespace gnomon
