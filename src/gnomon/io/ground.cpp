@@ -34,6 +34,14 @@ constexpr double kRingMin = 25, kRingMax = 100, kRingPoints = 200;
 // Real vertices are a millimetre apart. In between, in metres:
 constexpr double kOnEdge = 1e-6;
 
+// Neighbours on a slope have level bottoms at different heights, and share corners. Makers of
+// models put a bottom at the lowest point of the terrain around the building, so that at a shared
+// corner the terrain is at the higher bottom: there the ground is, and it covers a little of the
+// lower building's wall. A step of more than this is no slope but a part that starts on an upper
+// floor (a passage, an oriel); there the ground stays at the lower bottom. The least height of a
+// storey in most building codes, in metres.
+constexpr double kStorey = 2.5;
+
 // Faces of the linework must cover the region; their areas are sums of rounded products, hence not
 // exactly. Relative.
 constexpr double kSameArea = 1e-9;
@@ -413,19 +421,14 @@ Result<Surface3> through(const Footprints& feet, const Bounds2& model, const Bou
     if (!mesh) return failed("the triangulation");
   }
 
-  // Heights: on an edge of the region, those of the lowest footprint edge there; the lowest of both
-  // edges at a vertex.
+  // Heights: an edge of the region has those of the lowest footprint edge there, and a vertex the
+  // highest of its two edges' heights (kStorey).
   constexpr double kUnknown = std::numeric_limits<double>::infinity();
   struct Border {
     std::uint32_t u, v;
     double zu, zv;
   };
   PointIds id;
-  std::vector<double> z;
-  const auto height_of = [&](std::uint32_t k) -> double& {
-    if (z.size() <= k) z.resize(k + 1, kUnknown);
-    return z[k];
-  };
   std::vector<Border> borders;
   std::unordered_set<std::uint64_t> seen;
   for_each_polygon(geos, region.get(), [&](const GEOSGeometry* face) {
@@ -433,13 +436,21 @@ Result<Surface3> through(const Footprints& feet, const Bounds2& model, const Bou
       for (std::size_t k = 0; k + 1 < points.size(); ++k) {
         Border b{id(points[k]), id(points[k + 1]), 0, 0};
         if (!finder.heights(points[k], points[k + 1], b.zu, b.zv)) continue;
-        height_of(b.u) = std::min(height_of(b.u), b.zu);
-        height_of(b.v) = std::min(height_of(b.v), b.zv);
         const std::uint64_t low = std::min(b.u, b.v), high = std::max(b.u, b.v);
         if (seen.insert(low << 32 | high).second) borders.push_back(b);
       }
     });
   });
+  std::vector<double> z(id.points.size(), kUnknown);
+  for (const Border& b : borders) {
+    z[b.u] = std::min(z[b.u], b.zu);
+    z[b.v] = std::min(z[b.v], b.zv);
+  }
+  const std::vector<double> lowest = z;
+  for (const Border& b : borders) {
+    if (b.zu <= lowest[b.u] + kStorey) z[b.u] = std::max(z[b.u], b.zu);
+    if (b.zv <= lowest[b.v] + kStorey) z[b.v] = std::max(z[b.v], b.zv);
+  }
 
   Surface3 out;
   for_each_polygon(geos, mesh.get(), [&](const GEOSGeometry* t) {
@@ -450,11 +461,12 @@ Result<Surface3> through(const Footprints& feet, const Bounds2& model, const Bou
     if (side < 0) std::swap(v[1], v[2]);
     out.triangles.push_back(v);
   });
+  z.resize(id.points.size(), kUnknown);
   // All others, those of the ring, have the height of the nearest footprint vertex (the lowest of
   // several).
   std::vector<Vec3> known;
   for (std::uint32_t k = 0; k < id.points.size(); ++k) {
-    if (height_of(k) != kUnknown) known.push_back(Vec3(id.points[k], z[k]));
+    if (z[k] != kUnknown) known.push_back(Vec3(id.points[k], z[k]));
   }
   // Lower edges that enclose nothing have left no vertex in the ground, only their heights.
   if (known.empty()) {
@@ -465,8 +477,8 @@ Result<Surface3> through(const Footprints& feet, const Bounds2& model, const Bou
     if (z[k] == kUnknown) z[k] = flat ? z0 : nearest_height(known, p);
     out.positions.push_back(Vec3(p, z[k]));
   }
-  // Where a building meets a lower neighbour the ground dips to the lower one; an upright skirt
-  // closes what would be a gap below the higher one's edge.
+  // What stands more than a storey above its neighbour stands on a skirt: an upright wall from the
+  // ground to its lower edge, so that no light passes below it.
   for (const Border& b : borders) {
     const bool at_u = b.zu > z[b.u], at_v = b.zv > z[b.v];
     const Vec3 top_u(id.points[b.u], b.zu), top_v(id.points[b.v], b.zv);
