@@ -1,0 +1,24 @@
+// Options for models, their place, their ground and who casts and receives: the same in every
+// command.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include <gnomon/io/load_scene.h>
+#include <CLI/CLI.hpp>
+
+namespace gnomon::app {
+
+struct ModelOptions {
+  std::vector<std::filesystem::path> models;
+  LoadOptions load;
+};
+
+// Adds MODEL... (required) and, in the group "Model", --lod --up --unit --north --crs --site
+// --ground --cast --no-cast
+// --receive. The last three take one pattern each and may be repeated. `options` must outlive the
+// parsing.
+void add_model_options(CLI::App& command, ModelOptions& options);
+
+}  // namespace gnomon::app
