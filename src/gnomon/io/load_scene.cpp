@@ -142,7 +142,8 @@ Vec3 origin_of(const Model& m) {
     }
   }
   const Vec3 middle = (low + high) / 2.0;
-  return {std::round(middle.x), std::round(middle.y), std::round(middle.z)};
+  return Vec3(std::round(middle.x), std::round(middle.y), std::round(middle.z)) +
+         Vec3(0.0);  // no -0
 }
 
 // Two CRSs agree if they are the same text, or put the same point at the same place: EPSG:28992 and
@@ -222,7 +223,7 @@ void add_model(Scene& scene, Model& m) {
     warn(scene.warnings,
          result.triangles.empty()
              ? "Polygons of fewer than 3 distinct corners were left out."
-             : "Polygons that are not simple were triangulated without care for their holes.",
+             : "Polygons that are not simple were triangulated as a fan of their outer ring.",
          fmt::format("{}: {}", name_of(m, p), result.problem));
   }
   for (Surface& s : m.surfaces) scene.surfaces.push_back(std::move(s));

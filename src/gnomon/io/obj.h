@@ -15,7 +15,7 @@ namespace gnomon {
 // the material; .mtl files are not read. A ModelPolygon's number is the face's line. Colours and
 // weights after a vertex are ignored; points, lines and free-form geometry are left out with a
 // warning. Errors (with the line): coordinates that are missing or not finite numbers, vertex
-// indices that are no numbers, 0 or out of range, faces of fewer than 3 corners.
+// indices that are no numbers, 0 or out of range, faces without corners.
 Result<Model> read_obj(std::string_view text, const std::string& path, char up,
                        double metres_per_unit);
 
