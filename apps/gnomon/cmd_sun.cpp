@@ -4,7 +4,6 @@
 #include <gnomon/profile/study_times.h>
 #include <gnomon/sun/time_zone.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -40,6 +39,13 @@ struct Report {
 };
 
 double degrees(double radians) { return radians / kDegree; }
+
+// Degrees to `decimals`; a direction that rounds to 360 is 0.
+double rounded(double radians, int decimals) {
+  const double scale = std::pow(10.0, decimals);
+  const double value = std::round(degrees(radians) * scale) / scale;
+  return value == 360 ? 0 : value;
+}
 
 // "2024-09-18T09:00:00+02:00"; without an offset on the solar clock, which is none of the world's
 // zones.
@@ -90,7 +96,7 @@ std::string as_table(const Report& report) {
                       "altitude geometric", "altitude apparent");
   for (const Row& row : report.rows)
     text += fmt::format("{}   {}   {:>10.4f}   {:>18.4f}   {:>17.4f}\n", clock(row.utc),
-                        whole_seconds(iso_text(row.utc)), degrees(row.sun.azimuth),
+                        whole_seconds(iso_text(row.utc)), rounded(row.sun.azimuth, 4),
                         degrees(row.sun.altitude_geometric), degrees(row.sun.altitude_apparent));
   const Atmosphere air;
   text += fmt::format(
@@ -106,7 +112,7 @@ std::string as_csv(const Report& report) {
   std::string text = "utc,local,azimuth_deg,altitude_geometric_deg,altitude_apparent_deg\n";
   for (const Row& row : report.rows)
     text += fmt::format("{},{},{:.6f},{:.6f},{:.6f}\n", iso_text(row.utc),
-                        local_text(report, row.utc), degrees(row.sun.azimuth),
+                        local_text(report, row.utc), rounded(row.sun.azimuth, 6),
                         degrees(row.sun.altitude_geometric), degrees(row.sun.altitude_apparent));
   return text;
 }
@@ -114,15 +120,15 @@ std::string as_csv(const Report& report) {
 std::string as_json(const Report& report) {
   using Json = nlohmann::ordered_json;
   // Degrees to nine decimals: far below the algorithm's 0.0003, and free of the last digits' noise.
-  const auto rounded = [](double radians) { return std::round(degrees(radians) * 1e9) / 1e9; };
+  const auto nine = [](double radians) { return rounded(radians, 9); };
   const auto utc_or_null = [](const std::optional<Instant>& t) {
     return t ? Json(iso_text(*t)) : Json();
   };
 
   const SunDay& sun = report.day.sun;
   Json json;
-  json["place"] = {{"latitude_deg", rounded(report.place.latitude)},
-                   {"longitude_deg", rounded(report.place.longitude)},
+  json["place"] = {{"latitude_deg", nine(report.place.latitude)},
+                   {"longitude_deg", nine(report.place.longitude)},
                    {"height_m", report.place.height}};
   json["date"] = report.times.date;
   json["tz"] = report.times.zone;
@@ -134,9 +140,9 @@ std::string as_json(const Report& report) {
   for (const Row& row : report.rows)
     json["positions"].push_back({{"utc", iso_text(row.utc)},
                                  {"local", local_text(report, row.utc)},
-                                 {"azimuth_deg", rounded(row.sun.azimuth)},
-                                 {"altitude_geometric_deg", rounded(row.sun.altitude_geometric)},
-                                 {"altitude_apparent_deg", rounded(row.sun.altitude_apparent)}});
+                                 {"azimuth_deg", nine(row.sun.azimuth)},
+                                 {"altitude_geometric_deg", nine(row.sun.altitude_geometric)},
+                                 {"altitude_apparent_deg", nine(row.sun.altitude_apparent)}});
   json["version"] = GNOMON_VERSION;
   return json.dump(2) + "\n";
 }
@@ -158,10 +164,7 @@ void run(const Options& options) {
   if (report.times.to.empty()) report.times.to = "24:00";
   const StudyWindow window = take(study_window(report.times, *place));
   report.day = take(local_day(report.times.date, report.times.zone, *place));
-  for (Instant t = window.begin;; t = std::min(t + window.step, window.end)) {
-    report.rows.push_back({t, sun_position(t, *place)});
-    if (t == window.end) break;
-  }
+  for (const Instant t : window.edges) report.rows.push_back({t, sun_position(t, *place)});
 
   const std::string text = options.json  ? as_json(report)
                            : options.csv ? as_csv(report)

@@ -103,7 +103,7 @@ std::optional<milliseconds> read_step(std::string_view text) {
 
 // For messages.
 std::string on_clock(ClockTime clock, const std::string& zone) {
-  return iso_text(clock) + " (" + zone + ")";
+  return iso_text(clock) + " " + zone;
 }
 
 struct Date {
@@ -161,11 +161,16 @@ struct End {
   Instant bound;
 };
 
-Result<Instant> find_end(const End& end, const Date& date, const StudyTimes& times,
-                         const Place& place, Warnings& warnings) {
+struct FoundEnd {
+  Instant utc;
+  ClockTime clock;  // as given, not by way of UTC and its rounding
+};
+
+Result<FoundEnd> find_end(const End& end, const Date& date, const StudyTimes& times,
+                          const Place& place, Warnings& warnings) {
   const bool is_from = std::string_view(end.option) == "--from";
   if (end.text.empty()) {
-    if (end.event) return *end.event;
+    if (end.event) return FoundEnd{*end.event, utc_to_clock(times.zone, place, *end.event).value()};
     if (date.day.arc.polar_night || date.day.sun.polar_night)
       return Error{"the sun does not rise on " + times.date +
                    " at this place: choose another date, or give --from and --to"};
@@ -174,7 +179,7 @@ Result<Instant> find_end(const End& end, const Date& date, const StudyTimes& tim
              ? "the sun does not rise on this date, it is already up: the window begins at 00:00"
              : "the sun does not set on this date: the window ends at 24:00",
          times.date);
-    return end.bound;
+    return FoundEnd{end.bound, utc_to_clock(times.zone, place, end.bound).value()};
   }
 
   const auto time = read_clock(end.text);
@@ -191,7 +196,7 @@ Result<Instant> find_end(const End& end, const Date& date, const StudyTimes& tim
     if (*time == milliseconds(0) || *time == hours(24)) {
       warn(warnings, "the clock skips this midnight: the first instant after it is taken",
            on_clock(next, times.zone));
-      return utc;
+      return FoundEnd{utc, clock};
     }
     return Error{"the local time " + on_clock(clock, times.zone) + " given with " + end.option +
                  " does not exist: the clock is put forward there; take " +
@@ -202,7 +207,7 @@ Result<Instant> find_end(const End& end, const Date& date, const StudyTimes& tim
          "the clock shows this local time twice (it is put back there): the earlier one is taken; "
          "a UTC time has no such doubt (--tz UTC)",
          on_clock(clock, times.zone));
-  return utc;
+  return FoundEnd{utc, clock};
 }
 
 }  // namespace
@@ -228,22 +233,37 @@ Result<StudyWindow> study_window(const StudyTimes& times, const Place& place,
   const Date& date = found.value();
 
   StudyWindow window;
-  window.step = *step;
   const End from{"--from", times.from, date.day.arc.sunrise, date.day.begin};
-  const Result<Instant> begin = find_end(from, date, times, place, window.warnings);
+  const Result<FoundEnd> begin = find_end(from, date, times, place, window.warnings);
   if (!begin) return begin.error();
   const End to{"--to", times.to, date.day.arc.sunset, date.day.end};
-  const Result<Instant> end = find_end(to, date, times, place, window.warnings);
+  const Result<FoundEnd> end = find_end(to, date, times, place, window.warnings);
   if (!end) return end.error();
-  window.begin = begin.value();
-  window.end = end.value();
+  window.begin = begin.value().utc;
+  window.end = end.value().utc;
   if (window.begin >= window.end)
     return Error{"the window is empty: it begins at " + iso_text(window.begin) + " and ends at " +
                  iso_text(window.end) + "; give --from earlier than --to, on the date's own clock"};
-  const milliseconds length = window.end - window.begin;
-  if ((length + *step - milliseconds(1)) / *step > kMostSteps)
+
+  const bool solar = times.zone == "solar";
+  const milliseconds length =
+      solar ? end.value().clock - begin.value().clock : window.end - window.begin;
+  const bool remainder = length % *step != milliseconds(0);
+  const std::int64_t steps = length / *step + (remainder ? 1 : 0);
+  if (steps > kMostSteps)
     return Error{"the step '" + times.every + "' cuts the window into more than " +
                  std::to_string(kMostSteps) + " steps: give a longer --every"};
+  window.edges.push_back(window.begin);
+  for (std::int64_t k = 1; k < steps; ++k) {
+    const milliseconds passed = k * *step;
+    window.edges.push_back(
+        solar ? clock_to_utc(times.zone, place, begin.value().clock + passed).value().utc
+              : window.begin + passed);
+  }
+  window.edges.push_back(window.end);
+  if (remainder)
+    warn(window.warnings, "the window is not a whole number of steps: the last step is shorter",
+         times.every);
 
   const Instant noon = date.day.begin + (date.day.end - date.day.begin) / 2;
   if (times.zone != "UTC" && std::chrono::abs(date.day.arc.transit - noon) > kStrangeNoon)
@@ -251,9 +271,6 @@ Result<StudyWindow> study_window(const StudyTimes& times, const Place& place,
          "the sun is highest more than 5 hours from 12:00 on this clock: check --tz and the "
          "place's longitude",
          times.zone);
-  if (length % *step != milliseconds(0))
-    warn(window.warnings, "the window is not a whole number of steps: the last step is shorter",
-         times.every);
   return window;
 }
 
@@ -278,8 +295,9 @@ Result<Samples> study_samples(const StudyTimes& times, const Place& place, doubl
   };
   std::size_t nights = 0;
   std::string first_night;
-  for (Instant t = window.begin; t < window.end; t += window.step) {
-    const milliseconds length = std::min(window.step, window.end - t);
+  for (std::size_t k = 0; k + 1 < window.edges.size(); ++k) {
+    const Instant t = window.edges[k];
+    const milliseconds length = window.edges[k + 1] - t;
     samples.midpoints.push_back(sample(t + length / 2, length));
     samples.instants.push_back(sample(t, milliseconds(0)));
     const TimeSample& middle = samples.midpoints.back();

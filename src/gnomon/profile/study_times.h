@@ -25,23 +25,24 @@ struct StudyTimes {
 
 // A date of the local calendar.
 struct LocalDay {
-  Instant begin, end;  // 0:00 and 24:00 on the clock; a midnight that the clock skips is the first
-                       // instant after the gap
-  SunDay sun;  // the sunrise and sunset that fall between them, and the transit nearest to their
-               // middle
-  SunDay
-      arc;  // that transit, the sunrise before it and the sunset after it, even if beyond midnight
+  // 0:00 and 24:00 on the clock; a midnight that the clock skips is the first instant after the
+  // gap.
+  Instant begin, end;
+  // The sunrise and sunset that fall between them, and the transit nearest to their middle.
+  SunDay sun;
+  // That transit, the sunrise before it and the sunset after it, even if beyond midnight.
+  SunDay arc;
 };
 
 // Errors: no date or an unreadable one, no zone or an unknown one.
 Result<LocalDay> local_day(const std::string& date, const std::string& zone, const Place& place,
                            const Atmosphere& air = {});
 
-// A study's window and step.
+// A study's window, cut into steps.
 struct StudyWindow {
   Instant begin, end;
-  std::chrono::milliseconds step{0};  // positive, at most 24 h
-  Warnings warnings;                  // e.g. an ambiguous local time, a last step that is shorter
+  std::vector<Instant> edges;  // begin, the edges between the steps, end: ascending, at least two
+  Warnings warnings;           // e.g. an ambiguous local time, a last step that is shorter
 };
 
 // One moment of the study.
@@ -50,24 +51,27 @@ struct TimeSample {
   std::uint32_t weight_ms = 0;  // length of the step it stands for; 0 for instants()
   SunPosition sun;
   Light light{0, 0, 0, 0};  // towards the apparent sun, scene coordinates, unit length
-  bool up =
-      false;  // the sun's (apparent) centre is above the horizon; if not, it contributes nothing
+  bool up = false;          // apparent centre above the horizon; if not, it contributes nothing
 };
 
 struct Samples {
-  std::vector<TimeSample> midpoints;  // the steps' midpoints: what hours are summed over
-  std::vector<TimeSample>
-      instants;  // from, from + every, ..., to (both ends): what pictures of single shadows show
+  // The steps' midpoints: what hours are summed over.
+  std::vector<TimeSample> midpoints;
+  // from, from + every, ..., to (both ends): what pictures of single shadows show.
+  std::vector<TimeSample> instants;
   Instant begin, end;  // the window in UTC
   Warnings warnings;   // e.g. steps with the sun below the horizon, a last shorter step
 };
 
-// Steps are of elapsed time, begin at `from` and do not follow a change of the clock. Where the sun
-// does not rise or set, an empty `from` or `to` is the beginning or end of the local day, with a
-// warning. Errors: no date, no zone or an unknown one, unreadable date/time/step, from not before
-// to, local time that does not exist (spring forward: named), sun down all day and no from or to, a
-// step over 24 h, more than 100000 steps. Ambiguous local time (autumn): the earlier one is taken,
+// Steps begin at `from`. They are of elapsed time and do not follow a change of the clock; on the
+// solar clock, whose day is up to 30 s longer or shorter than 24 h, they are of solar time. Where
+// the sun does not rise or set, an empty `from` or `to` is the beginning or end of the local day,
 // with a warning.
+//
+// Errors: no date, no zone or an unknown one, unreadable date/time/step, from not
+// before to, local time that does not exist (spring forward: named), sun down all day and no from
+// or to, a step over 24 h, more than 100000 steps. Ambiguous local time (autumn): the earlier one
+// is taken, with a warning.
 Result<StudyWindow> study_window(const StudyTimes& times, const Place& place,
                                  const Atmosphere& air = {});
 
