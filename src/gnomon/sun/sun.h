@@ -44,7 +44,7 @@ SunPosition sun_position(Instant t, const Place& place, const Atmosphere& air = 
 Vec4 sun_direction(const SunPosition& sun, double true_north);
 
 // Sunrise, transit and sunset of the UTC day that `day` falls on (empty: the sun does not rise or
-// set that day).
+// set that day; of two, minutes after the day's beginning and before its end, one is given).
 struct SunDay {
   std::optional<Instant> sunrise, sunset;
   Instant transit;
