@@ -118,12 +118,12 @@ Result<fs::path> make_output_folder(const fs::path& folder) {
     return file_error("make the output folder", folder,
                       in_the_way || !failure ? ENOTDIR : failure.value());
   }
-  Result<AtomicFile> probe = AtomicFile::create(folder / ".gnomon");
-  if (!probe) {
-    // The probe's name would only confuse: say it of the folder. access() gives the reason again.
-    const int reason = ::access(folder.c_str(), W_OK | X_OK) != 0 ? errno : ENOSPC;
+  // Only creating a file tells: permissions, read-only mounts and full disks alike.
+  const fs::path probe = folder / fmt::format(".gnomon.tmp-{}", ::getpid());
+  if (const int reason = write_all(probe, {}); reason != 0) {
     return file_error("write to the output folder", folder, reason);
   }
+  fs::remove(probe, ignored);
   return folder;
 }
 

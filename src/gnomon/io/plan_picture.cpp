@@ -59,7 +59,7 @@ void draw_bar(Canvas& canvas, double x, double y, double width, double height, b
       canvas.rectangle(x + k, y, 1, height, colour);
     }
   }
-  canvas.frame(x, y, width, height, kHairline, 1);
+  canvas.frame(x - 1, y - 1, width + 2, height + 2, kHairline, 1);
 }
 
 bool any_without_sample(const Profile& p) {
