@@ -38,7 +38,7 @@ bool is_caster(const Casters& c, std::uint32_t triangle) {
 struct ViewSetup {
   ScreenSpace space;
   ScreenPoints screen;
-  double least_nearness = 0;       // of all samples; -infinity: some are unknown
+  double least_nearness = 0;       // of all samples; infinity: there are none
   std::vector<double> band_least;  // per band
 };
 
@@ -57,24 +57,39 @@ struct LightSetup {
   ExactStats stats;
 };
 
+// Nearness below which no sample of a triangle lies, for samples whose own nearness is unknown:
+// that of its lowest vertex in a parallel view; in front of a camera nearness is positive.
+double least_of_triangle(const Casters& casters, const ViewSetup& v, bool parallel,
+                         std::uint32_t triangle) {
+  if (!parallel) return 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::uint32_t vertex : casters.scene->mesh.triangles[triangle]) {
+    least = std::min(least, v.screen.points[vertex].z - v.screen.bound.z.error);
+  }
+  return least;
+}
+
 ViewSetup set_up_view(const Casters& casters, const Receivers& r, int threads) {
   ViewSetup v;
   v.space = screen_space(r.view);
   v.screen = project_all(v.space, casters.scene->mesh.positions, threads);
+  const bool parallel = is_parallel(r.view);
   const int bands = (r.view.height + kBandRows - 1) / kBandRows;
   v.band_least.resize(static_cast<std::size_t>(bands));
   parallel_for(bands, threads, [&](int b) {
     const std::size_t width = static_cast<std::size_t>(r.view.width);
     const std::size_t first = static_cast<std::size_t>(b) * kBandRows * width;
     const std::size_t end = std::min(r.nearness.size(), first + kBandRows * width);
-    float least = std::numeric_limits<float>::infinity();
-    bool unknown = false;
+    double least = std::numeric_limits<double>::infinity();
     for (std::size_t k = first; k < end; ++k) {
-      unknown |= std::isnan(r.nearness[k]);
-      least = std::min(least, r.nearness[k]);
+      const float n = r.nearness[k];
+      if (std::isnan(n)) {
+        least = std::min(least, least_of_triangle(casters, v, parallel, r.triangle[k]));
+      } else {
+        least = std::min(least, static_cast<double>(n));
+      }
     }
-    v.band_least[static_cast<std::size_t>(b)] =
-        unknown ? -std::numeric_limits<double>::infinity() : static_cast<double>(least);
+    v.band_least[static_cast<std::size_t>(b)] = least;
   });
   v.least_nearness = *std::min_element(v.band_least.begin(), v.band_least.end());
   return v;

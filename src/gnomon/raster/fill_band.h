@@ -34,7 +34,7 @@ struct BandJob {
   int stride = 0;                   // of nearness and counts; at least width + kPadding
   const float* nearness = nullptr;  // rows x stride; +infinity beyond the width
   std::int32_t* counts = nullptr;   // rows x stride; added to
-  double least_nearness = 0;        // of the band's samples; -infinity: unknown
+  double least_nearness = 0;        // of the band's samples; infinity: there are none
   double nearness_floor = 0;        // absolute error of nearness
   ExactDecisions* exact = nullptr;
 };

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include <gnomon/core/exact.h>
+
 namespace gnomon {
 namespace {
 
@@ -73,6 +75,43 @@ Polygon set_up(const PolygonEquations<double>& q, const EquationErrors& errors,
   // A cut by nearness is an optimisation: only where it is sharper than the picture is wide.
   if (std::fabs(p.g.a) * space.width > 4 * p.error_absolute) p.inverse_ga = 1 / p.g.a;
   return p;
+}
+
+void refine_nearness(Polygon& p, const ScreenPoint<double> (&corners)[3],
+                     const ScreenPoint<Bound>& errors, const ScreenSpace& space) {
+  // Moving the picture's origin by whole pixels is a shear, x' = x - dx w.
+  const auto whole = [&](double v, double w) {
+    const double pixel = std::round(v / w);
+    return w > 0 && std::fabs(pixel) < kLargestCoordinate ? pixel : 0.0;
+  };
+  const double dx = whole(corners[0].x, corners[0].w), dy = whole(corners[0].y, corners[0].w);
+  ScreenPoint<Approx> local[3];
+  double reach_x = 0, reach_y = 0;
+  for (int k = 0; k < 3; ++k) {
+    const Approx w(corners[k].w, errors.w.error);
+    local[k] = {Approx(corners[k].x, errors.x.error) - Approx(dx) * w,
+                Approx(corners[k].y, errors.y.error) - Approx(dy) * w, w,
+                Approx(corners[k].z, errors.z.error)};
+    if (w.value > w.error) {
+      reach_x = std::max(reach_x, std::fabs(local[k].x.value / w.value) + 1);
+      reach_y = std::max(reach_y, std::fabs(local[k].y.value / w.value) + 1);
+    } else {  // reaches behind the eye: may cover any pixel
+      reach_x = space.width + std::fabs(dx);
+      reach_y = space.height + std::fabs(dy);
+    }
+  }
+  const PolygonEquations<Approx> q = polygon_equations(local[0], local[1], local[2]);
+  if (!q.f.certain()) {
+    p.g = {0, 0, std::numeric_limits<double>::quiet_NaN()};
+    return;
+  }
+  const Approx a = q.n.a / q.f, b = q.n.b / q.f, c = q.n.c / q.f;
+  p.g = {a.value, b.value, c.value - (a.value * dx + b.value * dy)};
+  const double moved = std::fabs(p.g.a) * (space.width + std::fabs(dx)) +
+                       std::fabs(p.g.b) * (space.height + std::fabs(dy)) + std::fabs(c.value);
+  p.error_absolute =
+      (a.error * reach_x + b.error * reach_y + c.error) * kInflate + kNearnessRoundoff * moved;
+  p.error_relative = 0;
 }
 
 void set_rows(Polygon& p, const PolygonEquations<double>& q, const EquationErrors& errors,

@@ -86,6 +86,12 @@ Polygon set_up(const PolygonEquations<double>& q, const EquationErrors& errors,
                const ScreenSpace& space, const View& view, const Corners& corners,
                const Light& light, ExactStats& stats);
 
+// Replaces the polygon's nearness by one with a bound of its own, valid inside the polygon:
+// computed in pixel coordinates around its first corner, where little cancels. For polygons whose
+// nearness is kept (receivers). Vertices only; `errors`: of the points.
+void refine_nearness(Polygon& p, const ScreenPoint<double> (&corners)[3],
+                     const ScreenPoint<Bound>& errors, const ScreenSpace& space);
+
 // Rows of the picture that the polygon may touch where its nearness exceeds `least`; clips the
 // picture by its edges in floating point, one row wider than found. Sets first_row, end_row (empty:
 // first_row >= end_row).
