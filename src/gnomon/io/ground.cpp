@@ -560,7 +560,7 @@ Result<GroundReport> add_ground(Scene& scene, const GroundOptions& options) {
     if (is_terrain(scene.surfaces[s])) return GroundReport{"model terrain", 0};
   }
   const Footprints feet = find_footprints(scene);
-  if (feet.closed.empty() && feet.open.empty()) return level(hull.lowest);
+  if (feet.closed.empty() && (feet.open.empty() || feet.one_object)) return level(hull.lowest);
   Result<Surface3> ground = through(feet, hull.bounds, options.extent, scene.warnings);
   if (!ground) return ground.error();
   add_to_scene(scene, ground.value());
