@@ -94,7 +94,10 @@ inline int sample_side(const View& view, const Pixel& at, const Points& r, const
 // for A != B.
 inline int edge_side_of(const View& view, const Pixel& at, const Points& r, const Light& light,
                         const Vec3& a, const Vec3& b, ExactStats& stats) {
+  const bool at_vertex =
+      light == point(a) || light == point(b);  // two equal rows: zero unless the light moves
   const auto polynomial = [&]<class T>(int e, int l, int q) {
+    if (l == 0 && at_vertex) return T(0.0);
     const H4<T> x = eye<T>(view, e), y = pixel<T>(view, at, q), s = lift<T>(order_of(light, l));
     const H4<T> p = lift<T>(a), o = lift<T>(b);
     return plane<T>(r, x) * det4<T>(s, y, p, o) - plane<T>(r, y) * det4<T>(s, x, p, o);
@@ -123,6 +126,21 @@ inline bool crosses(const View& view, const Pixel& at, const Points& r, int seen
   if (lit == front) return false;
   for (std::size_t k = 0; k < 3; ++k) {
     if (seen * edge_side_of(view, at, r, light, t[k], t[(k + 1) % 3], stats) != front) return false;
+  }
+  return true;
+}
+
+// True if the segment from the eye to the light crosses t: the crossing above with e in place of p.
+inline bool before_eye(const View& view, const Points& t, const Light& light, ExactStats& stats) {
+  const int front = eye_side(view, t, stats);
+  if (light_side_of(t, light, stats) == front) return false;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3 &a = t[k], &b = t[(k + 1) % 3];
+    const auto polynomial = [&]<class T>(int e, int l, int) {
+      return det4<T>(lift<T>(order_of(light, l)), eye<T>(view, e), lift<T>(a), lift<T>(b));
+    };
+    if (tie_sign({.eye = true, .light = true, .pixel = false}, stats, polynomial) != front)
+      return false;
   }
   return true;
 }
