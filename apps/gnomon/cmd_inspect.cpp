@@ -213,9 +213,15 @@ std::string table(const std::string& title, const std::vector<Share>& shares) {
   return text;
 }
 
-std::string file_text(const FileReport& f) {
+std::string file_text(const FileReport& f, const LoadOptions& options) {
   std::string text = f.path + "\n" + row("format", f.format);
   text += row("CRS", f.crs.empty() ? "none in the file" : f.crs);
+  if (f.format == "OBJ") {
+    text += row("up axis", options.up != 0 ? std::string(1, options.up) + " (--up)"
+                                           : "y (the usual one of OBJ; --up z if the model lies)");
+    text += row("unit", options.unit.empty() ? "m (assumed; --unit says otherwise)"
+                                             : options.unit + " (--unit)");
+  }
   if (!f.lods.empty()) text += row("LoD", joined(f.lods) + " found; " + f.lod_used + " used");
   text += row("contents", counted(f.objects, "object") + ", " + counted(f.surfaces, "polygon") +
                               ", " + counted(f.triangles, "triangle"));
@@ -296,7 +302,7 @@ std::string mesh_text(const Inspection& in) {
 std::string as_text(const Inspection& in, const LoadOptions& options) {
   const Scene& scene = in.loaded.scene;
   std::string text;
-  for (const FileReport& f : in.loaded.files) text += file_text(f);
+  for (const FileReport& f : in.loaded.files) text += file_text(f, options);
   text += "Scene\n" + place_text(in, options);
   text += row("triangles", fmt::format("{} over {} vertices, after welding",
                                        in.mesh.total.triangles, in.vertices));
