@@ -40,10 +40,11 @@ std::string hours_label(double hours) {
 }
 
 // Ticks from 0 to the longest time; its own label takes the place of a tick that would touch it.
-std::vector<double> legend_ticks(double hours) {
+std::vector<double> legend_ticks(double hours, bool upright) {
+  const double room = upright ? 0.45 : 0.95;  // steps; labels side by side need more
   const double step = tick_hours(hours);
   std::vector<double> ticks;
-  for (int k = 0; k * step <= hours - 0.45 * step; ++k) ticks.push_back(k * step);
+  for (int k = 0; k * step <= hours - room * step; ++k) ticks.push_back(k * step);
   ticks.push_back(hours);
   return ticks;
 }
@@ -82,7 +83,7 @@ double draw_legend(Canvas& canvas, const Layout& at, const Profile& profile, dou
   if (hours > 0) {
     length = std::round(length);
     draw_bar(canvas, x, y, at.beside ? thick : length, at.beside ? length : thick, at.beside);
-    for (const double tick : legend_ticks(hours)) {
+    for (const double tick : legend_ticks(hours, at.beside)) {
       const double along = std::round(tick / hours * (length - 1)) + 0.5;
       const std::string words = hours_label(std::round(tick * 100) / 100) + " h";
       if (at.beside) {
@@ -229,7 +230,7 @@ Picture draw_plan(const Profile& profile, const View& view, const Frame& frame,
   at.side_x = at.beside ? at.left + at.width + gap : at.left;
   at.side_y = at.beside ? at.top : at.top + at.height + gap;
   const double below =
-      at.beside ? at.top + at.height : at.side_y + (any_without_sample(profile) ? 7.8 : 5.8) * em;
+      at.beside ? at.top + at.height : at.side_y + (any_without_sample(profile) ? 8.6 : 5.8) * em;
   at.footer_y = std::round(below + (at.beside ? 1.4 : 0.6) * em);
   const std::string foot = footer(view, frame, caption);
   at.canvas_height = static_cast<int>(

@@ -51,8 +51,8 @@ std::uint32_t magnitude(std::uint8_t difference) {
   return difference < 128 ? difference : 256u - difference;
 }
 
-// Writes filter type and filtered bytes of one row. Only None, Sub and Up: on maps and shaded
-// models Average and Paeth made files 2 % smaller at best and took twice the time.
+// Writes filter type and filtered bytes of one row. Only None, Sub and Up: Average and Paeth made a
+// map 4 % smaller and a shaded view 3 % larger, in two to three times the time.
 void filter_row(const std::uint8_t* row, const std::uint8_t* above, std::size_t bytes,
                 std::uint8_t* out) {
   constexpr std::size_t kPixel = 3;
