@@ -147,12 +147,6 @@ std::string as_json(const Report& report) {
   return json.dump(2) + "\n";
 }
 
-template <class T>
-T take(Result<T> result) {
-  if (!result) throw Failure(result.error().message);
-  return std::move(result).value();
-}
-
 void run(const Options& options) {
   const std::optional<Place> place = parse_site(options.site);
   if (!place) throw Failure("no place given: add --site LAT,LON[,HEIGHT], as --site 48.2,16.37");
@@ -174,10 +168,7 @@ void run(const Options& options) {
   else
     take(write_text_file(options.output, text));
 
-  if (options.common.quiet) return;
-  for (const Warning& w : window.warnings)
-    fmt::print(stderr, "gnomon: warning: {}{}\n", w.what,
-               w.first.empty() ? "" : " (" + w.first + ")");
+  if (!options.common.quiet) print_warnings(window.warnings);
 }
 
 }  // namespace

@@ -1,9 +1,12 @@
-// The commands of the program. Each file cmd_*.cpp adds one: arguments, progress, messages; no algorithm.
+// The commands of the program. Each file cmd_*.cpp adds one: arguments, progress, messages; no
+// algorithm.
 #pragma once
 
 #include <stdexcept>
 #include <string>
 
+#include <gnomon/core/result.h>
+#include <gnomon/core/warnings.h>
 #include <CLI/CLI.hpp>
 
 namespace gnomon::app {
@@ -12,6 +15,16 @@ namespace gnomon::app {
 struct Failure : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
+
+// The value, or Failure with the error's message.
+template <class T>
+T take(Result<T> result) {
+  if (!result) throw Failure(result.error().message);
+  return std::move(result).value();
+}
+
+// One line each on standard error.
+void print_warnings(const Warnings& warnings);
 
 // Options that every command has.
 struct Common {

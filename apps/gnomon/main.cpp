@@ -13,6 +13,16 @@ void add_common(CLI::App& command, Common& common) {
   command.add_flag("-v,--verbose", common.verbose, "Say more; twice: even more")->group("General");
 }
 
+void print_warnings(const Warnings& warnings) {
+  for (const Warning& w : warnings) {
+    std::string line = "gnomon: warning: " + w.what;
+    if (w.count > 1) line += " (" + std::to_string(w.count) + " times";
+    if (!w.first.empty()) line += (w.count > 1 ? ", first: " : " (") + w.first;
+    if (w.count > 1 || !w.first.empty()) line += ")";
+    std::fprintf(stderr, "%s\n", line.c_str());
+  }
+}
+
 }  // namespace gnomon::app
 
 int main(int argc, char** argv) {

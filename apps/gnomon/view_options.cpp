@@ -1,0 +1,225 @@
+#include "view_options.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <vector>
+
+#include <fmt/format.h>
+#include <unistd.h>
+#include <glm/geometric.hpp>
+
+#include "commands.h"
+
+namespace gnomon::app {
+namespace {
+
+// Pixel sizes that people like; the first that keeps the picture within kAutoPixels is taken.
+constexpr std::array kPixelSizes = {0.05, 0.1, 0.2,  0.25, 0.5,  1.0,
+                                    2.0,  5.0, 10.0, 20.0, 50.0, 100.0};
+constexpr double kAutoPixels = 2000;  // on the longer side
+constexpr double kBytesPerSample =
+    64;  // of everything that a profile keeps per sample, at its peak
+constexpr double kEyeAltitude = 42 * kDegree;  // of the automatic camera above the horizon
+constexpr double kEyeBesideSun =
+    35 * kDegree;  // and to the right of the sun, so that shadows are seen
+
+std::vector<double> numbers(const std::string& text, std::size_t n, const char* option,
+                            const char* form) {
+  std::vector<double> out;
+  const char* at = text.c_str();
+  while (*at != 0) {
+    char* end = nullptr;
+    const double v = std::strtod(at, &end);
+    if (end == at || !std::isfinite(v)) break;
+    out.push_back(v);
+    at = end;
+    if (*at == ',') ++at;
+  }
+  if (*at != 0 || out.size() != n) {
+    throw Failure(
+        fmt::format("cannot read {} '{}': give it as {}, numbers in the model's coordinates",
+                    option, text, form));
+  }
+  return out;
+}
+
+Vec3 parse_point(const std::string& text, const char* option, const Vec3& origin) {
+  const std::vector<double> v = numbers(text, 3, option, "X,Y,Z");
+  return Vec3(v[0], v[1], v[2]) - origin;
+}
+
+std::array<int, 2> parse_size(const std::string& text) {
+  int w = 0, h = 0;
+  char extra = 0;
+  if (std::sscanf(text.c_str(), "%dx%d%c", &w, &h, &extra) != 2 || w < 1 || h < 1 || w > 32767 ||
+      h > 32767) {
+    throw Failure(fmt::format(
+        "cannot read --size '{}': give it as WIDTHxHEIGHT in pixels, such as 1600x1000", text));
+  }
+  return {w, h};
+}
+
+void check_memory(double width, double height, const char* advice) {
+  const double memory =
+      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  const double needed = width * height * kBytesPerSample;
+  if (needed > memory || width * height > 2e9) {
+    throw Failure(
+        fmt::format("a picture of {:.0f} x {:.0f} samples needs about {:.1f} GB of memory, this "
+                    "machine has {:.1f} GB: {}",
+                    width, height, needed / 1e9, memory / 1e9, advice));
+  }
+}
+
+}  // namespace
+
+void add_view_options(CLI::App& command, ViewOptions& o) {
+  const char* group = "View";
+  command.add_option("--view", o.kind, "plan (default) or camera")
+      ->check(CLI::IsMember({"plan", "camera"}))
+      ->group(group);
+  command
+      .add_option("--pixel", o.pixel,
+                  "Plan: size of a sample in metres (default: about 2000 samples across)")
+      ->check(CLI::PositiveNumber)
+      ->group(group);
+  command
+      .add_option("--bounds", o.bounds,
+                  "Plan: x0,y0,x1,y1 in the model's coordinates (default: the model and a margin)")
+      ->group(group);
+  command.add_option("--eye", o.eye, "Camera: X,Y,Z in the model's coordinates (default: chosen)")
+      ->group(group);
+  command
+      .add_option("--target", o.target,
+                  "Camera: X,Y,Z that it looks at (default: the model's middle)")
+      ->group(group);
+  command.add_option("--fov", o.fov_deg, "Camera: vertical field of view in degrees")
+      ->check(CLI::Range(1.0, 170.0))
+      ->capture_default_str()
+      ->group(group);
+  command.add_option("--ortho", o.ortho_height, "Camera: parallel view, METRES high at the target")
+      ->check(CLI::PositiveNumber)
+      ->group(group);
+  command.add_option("--size", o.size, "Camera: WIDTHxHEIGHT in pixels")
+      ->capture_default_str()
+      ->group(group);
+}
+
+Box model_box(const Scene& scene) {
+  constexpr double kInf = std::numeric_limits<double>::infinity();
+  Box box{{kInf, kInf, kInf}, {-kInf, -kInf, -kInf}};
+  for (std::size_t t = 0; t < scene.mesh.triangles.size(); ++t) {
+    if (scene.surfaces[scene.surface_of[t]].object == "Ground") continue;
+    for (const std::uint32_t v : scene.mesh.triangles[t]) {
+      const Vec3& p = scene.mesh.positions[v];
+      for (int k = 0; k < 3; ++k) {
+        box.lo[k] = std::min(box.lo[k], p[k]);
+        box.hi[k] = std::max(box.hi[k], p[k]);
+      }
+    }
+  }
+  return box;
+}
+
+std::optional<Bounds2> parse_bounds(const std::string& text) {
+  if (text.empty()) return {};
+  const std::vector<double> v = numbers(text, 4, "--bounds", "x0,y0,x1,y1");
+  if (!(v[0] < v[2] && v[1] < v[3])) {
+    throw Failure(
+        fmt::format("--bounds '{}' is empty: x0 must be less than x1 and y0 less than y1", text));
+  }
+  return Bounds2{v[0], v[1], v[2], v[3]};
+}
+
+bool wants_camera(const ViewOptions& o) {
+  const bool camera_options = !o.eye.empty() || !o.target.empty() || o.ortho_height > 0;
+  const bool plan_options = o.pixel > 0 || !o.bounds.empty();
+  if (o.kind == "plan" && camera_options)
+    throw Failure("--view plan takes no --eye, --target or --ortho");
+  if (o.kind == "camera" && plan_options)
+    throw Failure("--view camera takes no --pixel or --bounds");
+  if (o.kind.empty() && camera_options && plan_options) {
+    throw Failure(
+        "--pixel and --bounds are for a plan, --eye, --target and --ortho for a camera: give one "
+        "kind, or --view");
+  }
+  return o.kind == "camera" || camera_options;
+}
+
+View make_plan(const Scene& scene, const ViewOptions& o) {
+  const Box box = model_box(scene);
+  const Vec3 origin = scene.frame.origin;
+  Bounds2 b;
+  if (const std::optional<Bounds2> given = parse_bounds(o.bounds)) {
+    b = {given->x0 - origin.x, given->y0 - origin.y, given->x1 - origin.x, given->y1 - origin.y};
+  } else {
+    // Room for shadows: three heights of the model, but no more than 50 m or a twentieth of a large
+    // model.
+    const double side = std::max(box.hi.x - box.lo.x, box.hi.y - box.lo.y);
+    const double margin = std::min(3 * (box.hi.z - box.lo.z), std::max(50.0, 0.05 * side));
+    b = {box.lo.x - margin, box.lo.y - margin, box.hi.x + margin, box.hi.y + margin};
+  }
+  double pixel = o.pixel;
+  if (!(pixel > 0)) {
+    const double side = std::max(b.x1 - b.x0, b.y1 - b.y0);
+    pixel = kPixelSizes.back();
+    for (const double p : kPixelSizes) {
+      if (side <= p * kAutoPixels) {
+        pixel = p;
+        break;
+      }
+    }
+  }
+  if (o.bounds.empty()) {  // whole pixels in the model's coordinates
+    b.x0 = std::floor((b.x0 + origin.x) / pixel) * pixel - origin.x;
+    b.y0 = std::floor((b.y0 + origin.y) / pixel) * pixel - origin.y;
+    b.x1 = std::ceil((b.x1 + origin.x) / pixel) * pixel - origin.x;
+    b.y1 = std::ceil((b.y1 + origin.y) / pixel) * pixel - origin.y;
+  }
+  check_memory((b.x1 - b.x0) / pixel, (b.y1 - b.y0) / pixel,
+               "give a larger --pixel or smaller --bounds");
+  return plan_view(b, pixel, box.lo.z);
+}
+
+View make_camera(const Scene& scene, const ViewOptions& o, double sun_azimuth, int supersample) {
+  const std::array<int, 2> size = parse_size(o.size);
+  const int width = size[0] * supersample, height = size[1] * supersample;
+  check_memory(width, height, "give a smaller --size");
+  const Box box = model_box(scene);
+  const Vec3 target = o.target.empty() ? (box.lo + box.hi) * 0.5
+                                       : parse_point(o.target, "--target", scene.frame.origin);
+  const double fov = o.fov_deg * kDegree;
+  Vec3 eye;
+  if (!o.eye.empty()) {
+    eye = parse_point(o.eye, "--eye", scene.frame.origin);
+    if (glm::distance(eye, target) == 0) throw Failure("--eye and --target are the same point");
+  } else {
+    const double azimuth = sun_azimuth + kEyeBesideSun;
+    const Vec3 back(std::sin(azimuth) * std::cos(kEyeAltitude),
+                    std::cos(azimuth) * std::cos(kEyeAltitude), std::sin(kEyeAltitude));
+    const Vec3 right = glm::normalize(glm::cross(-back, Vec3(0, 0, 1))),
+               top = glm::cross(right, -back);
+    const double tan_v = std::tan(fov / 2), tan_h = tan_v * width / height;
+    double distance = 0;  // least at which all corners of the box are in the picture
+    for (int k = 0; k < 8; ++k) {
+      const Vec3 corner((k & 1) != 0 ? box.hi.x : box.lo.x, (k & 2) != 0 ? box.hi.y : box.lo.y,
+                        (k & 4) != 0 ? box.hi.z : box.lo.z);
+      const Vec3 d = corner - target;
+      const double beside =
+          std::max(std::fabs(glm::dot(d, right)) / tan_h, std::fabs(glm::dot(d, top)) / tan_v);
+      distance = std::max(distance, beside + glm::dot(d, back));
+    }
+    eye = target + back * (distance * 1.02);  // a little air around it
+  }
+  const Vec3 forward = glm::normalize(target - eye);
+  const Vec3 up = std::hypot(forward.x, forward.y) < 1e-6
+                      ? Vec3(0, 1, 0)
+                      : Vec3(0, 0, 1);  // straight down: north is up
+  if (o.ortho_height > 0) return orthographic_view(eye, target, up, o.ortho_height, width, height);
+  return perspective_view(eye, target, up, fov, width, height);
+}
+
+}  // namespace gnomon::app
