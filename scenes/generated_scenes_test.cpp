@@ -1,0 +1,95 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include <gnomon/mesh/edge_table.h>
+#include <scenes/generated_city.h>
+#include <scenes/generated_sphere.h>
+
+namespace gnomon::scenes {
+namespace {
+
+// Edges of the selected triangles that are not used once in each direction by exactly two of them.
+std::size_t open_edges(const Scene& scene, const std::vector<std::uint8_t>& selected) {
+  const EdgeTable edges = build_edge_table(scene.mesh, selected);
+  std::size_t open = 0;
+  for (std::size_t k = 0; k < edges.vertices.size(); ++k) {
+    const std::uint32_t first = edges.first[k];
+    const bool closed = edges.first[k + 1] - first == 2 &&
+                        ((edges.incidence[first] ^ edges.incidence[first + 1]) & 1) == 1;
+    open += closed ? 0 : 1;
+  }
+  return open;
+}
+
+double volume(const Scene& scene, const std::vector<std::uint8_t>& selected) {
+  double sum = 0;
+  for (std::size_t t = 0; t < scene.mesh.triangles.size(); ++t) {
+    if (selected[t] == 0) continue;
+    const Triangle& v = scene.mesh.triangles[t];
+    sum += glm::dot(scene.mesh.positions[v[0]],
+                    glm::cross(scene.mesh.positions[v[1]], scene.mesh.positions[v[2]])) /
+           6;
+  }
+  return sum;
+}
+
+TEST(GeneratedCity, HasTheBuildingsAskedForAllClosedAndWoundOutwards) {
+  const Scene s = generated_city({.buildings = 500});
+  EXPECT_EQ(s.surfaces.size(), 501u);
+  std::vector<std::uint8_t> buildings(s.mesh.triangles.size());
+  std::vector<double> volumes(s.surfaces.size());
+  for (std::size_t t = 0; t < buildings.size(); ++t) buildings[t] = s.surface_of[t] == 0 ? 0 : 1;
+  EXPECT_EQ(open_edges(s, buildings), 0u);
+  for (std::uint32_t b = 1; b < s.surfaces.size(); ++b) {
+    std::vector<std::uint8_t> one(s.mesh.triangles.size());
+    for (std::size_t t = 0; t < one.size(); ++t) one[t] = s.surface_of[t] == b ? 1 : 0;
+    EXPECT_GT(volume(s, one), 200.0) << s.surfaces[b].object;
+  }
+}
+
+TEST(GeneratedCity, HasAboutTheTrianglesAskedFor) {
+  for (const std::size_t triangles : {20000u, 300000u}) {
+    const double n =
+        static_cast<double>(generated_city({.triangles = triangles}).mesh.triangles.size());
+    EXPECT_NEAR(n / static_cast<double>(triangles), 1.0, 0.1);
+  }
+}
+
+TEST(GeneratedCity, IsTheSameForTheSameOptionsOnly) {
+  const Scene a = generated_city({.buildings = 50, .seed = 3}),
+              b = generated_city({.buildings = 50, .seed = 3});
+  EXPECT_EQ(a.mesh.positions, b.mesh.positions);
+  EXPECT_EQ(a.mesh.triangles, b.mesh.triangles);
+  EXPECT_NE(a.mesh.positions, generated_city({.buildings = 50, .seed = 4}).mesh.positions);
+}
+
+TEST(GeneratedCity, LiesWithinItsBounds) {
+  const CityOptions options{.buildings = 300};
+  const Scene s = generated_city(options);
+  const Bounds2 bounds = city_bounds(options);
+  for (std::size_t t = 0; t < s.mesh.triangles.size(); ++t) {
+    if (s.surface_of[t] == 0) continue;
+    for (const std::uint32_t v : s.mesh.triangles[t]) {
+      const Vec3& p = s.mesh.positions[v];
+      ASSERT_TRUE(p.x > bounds.x0 && p.x < bounds.x1 && p.y > bounds.y0 && p.y < bounds.y1);
+    }
+  }
+}
+
+TEST(GeneratedSphere, IsClosedAndHasTheSpheresVolume) {
+  const Scene s = generated_sphere(5, 2.0, Vec3(10, 20, 30));
+  EXPECT_EQ(s.mesh.triangles.size(), 20u << 10);
+  const std::vector<std::uint8_t> all(s.mesh.triangles.size(), 1);
+  EXPECT_EQ(open_edges(s, all), 0u);
+  EXPECT_NEAR(volume(s, all), 4.0 / 3.0 * 3.14159265 * 8, 0.1);
+  EXPECT_EQ(
+      open_edges(generated_sphere(4, 1.0, Vec3(0.0), 0.3), std::vector<std::uint8_t>(20u << 8, 1)),
+      0u);
+}
+
+}  // namespace
+}  // namespace gnomon::scenes
