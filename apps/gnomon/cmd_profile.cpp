@@ -35,7 +35,7 @@ struct Options {
   TimeOptions time;
   ViewOptions view;
   std::string output = "gnomon-out";
-  std::string title;
+  std::string title, attribution;
 };
 
 class Stopwatch {
@@ -180,6 +180,7 @@ void run(const Options& o) {
   plan_caption.title = title;
   plan_caption.lines = {window, steps};
   plan_caption.software = software;
+  plan_caption.attribution = o.attribution;
   const char* map_name = camera ? "hours.png" : "plan.png";
   const PlanRelief relief = camera ? PlanRelief{} : plan_relief(scene, receivers, o.common.threads);
   take(write_plan_picture(folder / map_name, profile, view, scene.frame, plan_caption, relief,
@@ -212,6 +213,7 @@ void run(const Options& o) {
   view_caption.title = title;
   view_caption.lines = {window, fmt::format("{} shadows laid over each other", picture.instants)};
   view_caption.software = software;
+  view_caption.attribution = o.attribution;
   take(write_view_picture(folder / "view.png", picture, view_caption, o.common.threads));
   outputs.push_back("view.png");
   watch.stage("view.png");
@@ -256,6 +258,10 @@ void add_profile(CLI::App& app) {
   command
       ->add_option("--title", options->title,
                    "Title of the pictures (default: names of the models)")
+      ->group("Output");
+  command
+      ->add_option("--attribution", options->attribution,
+                   "Whom the pictures name as the model's source")
       ->group("Output");
   add_common(*command, options->common);
   command->callback([options] { run(*options); });
