@@ -148,7 +148,7 @@ Slope slope() {
     const double x = 40.0 * (k % 5), y = 37.0 * (k / 5);
     s.feet.push_back(turned(x, y, 12 + k % 3, 9 + k % 4, 0.3 * k, 200 + 0.1 * x));
     s.footprint += (12 + k % 3) * (9 + k % 4);
-    add_box(s.scene, "b" + std::to_string(k), s.feet.back(), 8);
+    add_box(s.scene, std::to_string(k), s.feet.back(), 8);
   }
   return s;
 }
