@@ -273,8 +273,8 @@ std::string mesh_text(const Inspection& in) {
   const MeshReport& m = in.mesh;
   std::string text =
       fmt::format("\n{:<26}{:>10}{:>12}\n", "Mesh, without the ground", "components", "triangles");
-  const char* meaning[5] = {"closed, outwards: light-facing triangles alone would do",
-                            "closed, inwards", "more than two triangles at an edge",
+  const char* meaning[5] = {"closed, outwards: can be counted with weight 1", "closed, inwards",
+                            "more than two triangles at an edge",
                             "neighbours wound against each other", "has a boundary"};
   for (const SurfaceKind kind : kKinds) {
     const auto k = static_cast<std::size_t>(kind);

@@ -10,12 +10,13 @@
 namespace gnomon {
 
 struct GroundOptions {
-  // "auto": nothing if the model brings terrain (TINRelief, LandUse, Road, Railway, WaterBody, PlantCover, TransportSquare,
-  // Waterway surfaces); else a surface triangulated through the buildings' GroundSurface polygons (objects without any: the outline of their lowest
-  // vertices), so that buildings on a slope do not float, level beyond them.
-  // "none": nothing. A number: a level plane at that height (metres, model CRS).
+  // "auto": nothing if the model brings terrain (TINRelief, LandUse, Road, Railway, WaterBody,
+  // PlantCover, TransportSquare, Waterway); else a surface through the lower edges of the
+  // buildings, level beyond them (docs/ground.md); for a scene that names no city object, a level
+  // plane at its lowest point. "none": nothing. A number: a level plane at that height (metres,
+  // model CRS).
   std::string mode = "auto";
-  Bounds2 extent;  // scene coordinates: the ground reaches at least this far (besides below the model itself)
+  Bounds2 extent;  // scene coordinates: the ground reaches at least this far, and below the model
 };
 
 // What became of the ground, in one sentence for summary.json.
@@ -24,8 +25,11 @@ struct GroundReport {
   std::size_t triangles = 0;
 };
 
-// Adds the ground's triangles to the scene as surface {object "Ground", group "Ground", semantic "Ground"}; the mesh must be
-// welded again afterwards by the caller. Adds warnings to the scene (e.g. footprints that had to be repaired).
+// Adds the ground's triangles to the scene as its last surface {object, group and semantic
+// "Ground"}. They look up, but for upright skirts below parts that start more than a storey above
+// their neighbours; their vertices equal those of the buildings exactly, so the caller welds the
+// mesh again. Adds a warning to the scene where the ground could not follow every footprint edge.
+// Errors: a mode that is not understood; a plane without extent; footprints that GEOS cannot unite.
 Result<GroundReport> add_ground(Scene& scene, const GroundOptions& options);
 
 }  // namespace gnomon
