@@ -1,5 +1,6 @@
 #if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic ignored "-Wrestrict"  // GCC 12 warns of "text" + std::string (its bug 105651)
+// GCC 12 warns of "text" + std::string (its bug 105651).
+#pragma GCC diagnostic ignored "-Wrestrict"
 #endif
 
 #include <gnomon/io/cityjson.h>

@@ -223,7 +223,7 @@ void add_model(Scene& scene, Model& m) {
     warn(scene.warnings,
          result.triangles.empty()
              ? "Polygons of fewer than 3 distinct corners were left out."
-             : "Polygons that are not simple were triangulated as a fan of their outer ring.",
+             : "Polygons that are not simple could not be triangulated exactly.",
          fmt::format("{}: {}", name_of(m, p), result.problem));
   }
   for (Surface& s : m.surfaces) scene.surfaces.push_back(std::move(s));

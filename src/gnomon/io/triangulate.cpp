@@ -249,6 +249,68 @@ std::string invalid_because(const GEOSGeometry* polygon) {
   return text.substr(0, text.find('['));  // the place in the projection would not help anyone
 }
 
+// How a corner of a ring may be clipped, the best first.
+enum class Ear { kTurnsBack, kTrue, kStraight };
+
+// Triangles of a ring that GEOS calls invalid because it touches itself, as rings do that reach a
+// hole over a slit. Clips spikes, then corners whose triangle holds no other corner; whether the
+// result is right, covers() decides. May return too few triangles.
+std::vector<Triangle> clip_ears(const Ring& outer, const std::vector<Vec3>& positions,
+                                const Plane& plane, const std::vector<Corner>& corners) {
+  constexpr std::size_t kMostCorners = 2000;  // the worst case is cubic
+  std::vector<Triangle> triangles;
+  if (outer.size() > kMostCorners) return triangles;
+  Ring ring;
+  for (const std::uint32_t v : outer) ring.push_back(*vertex_at(corners, plane(positions[v])));
+
+  const auto corner = [&](std::size_t k) {
+    const std::size_t n = ring.size();
+    return Triangle{ring[(k + n - 1) % n], ring[k], ring[(k + 1) % n]};
+  };
+  const auto is_ear = [&](const Triangle& t, Ear kind) {
+    const auto at = [&](std::uint32_t v) { return plane(positions[v]); };
+    const Vec2 a = at(t[0]), b = at(t[1]), c = at(t[2]);
+    const int turn = orientation(a, b, c);
+    if (kind == Ear::kStraight) return turn == 0;
+    if (kind == Ear::kTurnsBack) return turn == 0 && before(a, b) != before(b, c);
+    return turn > 0 && std::none_of(ring.begin(), ring.end(), [&](std::uint32_t v) {
+             return v != t[0] && v != t[1] && v != t[2] && orientation(a, b, at(v)) >= 0 &&
+                    orientation(b, c, at(v)) >= 0 && orientation(c, a, at(v)) >= 0;
+           });
+  };
+  while (ring.size() >= 3) {
+    const std::size_t n = ring.size();
+    std::size_t found = n;
+    for (const Ear kind : {Ear::kTurnsBack, Ear::kTrue, Ear::kStraight}) {
+      for (std::size_t k = 0; k < n && found == n; ++k) {
+        if (is_ear(corner(k), kind)) found = k;
+      }
+    }
+    if (found == n) break;
+    const Triangle t = corner(found);
+    ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(found));
+    if (t[0] == t[2]) {  // there and back again: no triangle, and one end of it less
+      ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(found % (n - 1)));
+    } else {
+      triangles.push_back(t);
+    }
+  }
+  return triangles;
+}
+
+// What is left where GEOS cannot help: the outer ring by ears, or a fan of it if it crosses itself.
+Triangulation without_geos(const std::vector<Ring>& rings, const std::vector<Vec3>& positions,
+                           const Plane& plane, const std::vector<Corner>& corners,
+                           const std::string& reason) {
+  Triangulation result;
+  result.triangles = clip_ears(rings[0], positions, plane, corners);
+  if (!covers(result.triangles, {rings[0]}, positions, plane, corners)) {
+    return fan(rings[0], reason);
+  }
+  if (rings.size() > 1) result.problem = reason + "; its holes were left out";
+  return result;
+}
+
 // Two triangles over a diagonal, if both wind the polygon's way: then they cover it exactly once.
 bool split_quad(const Ring& ring, const std::vector<Vec3>& positions, const Plane& plane,
                 std::vector<Triangle>& triangles) {
@@ -301,10 +363,10 @@ Triangulation triangulate(const std::vector<Vec3>& positions,
 
   const Geometry polygon = polygon_of(clean, positions, plane);
   if (!polygon) return fan(outer, "GEOS cannot make a polygon of its rings");
-  if (clean.size() > 1) {  // GEOS joins holes to the outer ring without looking where they are
-    const std::string reason = invalid_because(polygon.get());
-    if (!reason.empty()) return fan(outer, reason);
-  }
+  // GEOS 3.11 never returns from a ring that crosses itself, and joins holes without looking where
+  // they are.
+  const std::string reason = invalid_because(polygon.get());
+  if (!reason.empty()) return without_geos(clean, positions, plane, *corners, reason);
   const Geometry collection(GEOSConstrainedDelaunayTriangulation_r(geos(), polygon.get()));
   if (collection) {
     auto triangles = named_triangles(collection.get(), *corners);
@@ -313,8 +375,7 @@ Triangulation triangulate(const std::vector<Vec3>& positions,
       return result;
     }
   }
-  const std::string reason = invalid_because(polygon.get());
-  return fan(outer, reason.empty() ? "GEOS cannot triangulate it" : reason);
+  return without_geos(clean, positions, plane, *corners, "GEOS cannot triangulate it");
 }
 
 }  // namespace gnomon
