@@ -1,6 +1,7 @@
 // Small scenes for tests.
 #pragma once
 
+#include <cmath>
 #include <random>
 
 #include <gnomon/mesh/weld.h>
@@ -27,8 +28,9 @@ inline void add_quad(TriMesh& m, const Vec3& a, const Vec3& b, const Vec3& c, co
 
 // Closed box, wound outwards.
 inline void add_box(TriMesh& m, const Vec3& lo, const Vec3& hi) {
-  const Vec3 p[8] = {{lo.x, lo.y, lo.z}, {hi.x, lo.y, lo.z}, {hi.x, hi.y, lo.z}, {lo.x, hi.y, lo.z},
-                     {lo.x, lo.y, hi.z}, {hi.x, lo.y, hi.z}, {hi.x, hi.y, hi.z}, {lo.x, hi.y, hi.z}};
+  const Vec3 p[8] = {{lo.x, lo.y, lo.z}, {hi.x, lo.y, lo.z}, {hi.x, hi.y, lo.z},
+                     {lo.x, hi.y, lo.z}, {lo.x, lo.y, hi.z}, {hi.x, lo.y, hi.z},
+                     {hi.x, hi.y, hi.z}, {lo.x, hi.y, hi.z}};
   add_quad(m, p[3], p[2], p[1], p[0]);
   add_quad(m, p[4], p[5], p[6], p[7]);
   add_quad(m, p[0], p[1], p[5], p[4]);
@@ -41,7 +43,8 @@ inline void add_ground(TriMesh& m, double half, double z = 0) {
   add_quad(m, {-half, -half, z}, {half, -half, z}, {half, half, z}, {-half, half, z});
 }
 
-// n random triangles in the cube of half-width `half`; coordinates on a grid of `grid` if that is positive (many ties).
+// n random triangles in the cube of half-width `half`; coordinates on a grid of `grid` if that is
+// positive (many ties).
 inline void add_soup(TriMesh& m, int n, double half, double grid, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> u(-half, half);

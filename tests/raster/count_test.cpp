@@ -10,7 +10,8 @@ namespace {
 
 using test::scene_of;
 
-std::vector<std::int32_t> fast_counts(const Scene& scene, const Receivers& r, const Light& light, int threads = 1) {
+std::vector<std::int32_t> fast_counts(const Scene& scene, const Receivers& r, const Light& light,
+                                      int threads = 1) {
   const Casters casters = prepare_casters(scene);
   std::vector<std::int32_t> counts(r.triangle.size(), 0);
   count_shadows(
@@ -18,7 +19,8 @@ std::vector<std::int32_t> fast_counts(const Scene& scene, const Receivers& r, co
       [&](const CountBand& b) {
         for (int row = 0; row < b.rows; ++row) {
           for (int x = 0; x < b.width; ++x) {
-            counts[static_cast<std::size_t>((b.first_row + row) * b.width + x)] = b.counts[row * b.stride + x];
+            counts[static_cast<std::size_t>((b.first_row + row) * b.width + x)] =
+                b.counts[row * b.stride + x];
           }
         }
       },
@@ -77,10 +79,12 @@ std::vector<Case> hard_cases() {
   const View camera = perspective_view({14.2, -17.3, 9.1}, {0, 0, 0}, {0, 0, 1}, 0.9, 32, 24);
   const View inside = perspective_view({0.5, 0.25, 0.125}, {5, 3, -2}, {0, 0, 1}, 1.5, 32, 24);
   const View parallel = orthographic_view({14.2, -17.3, 9.1}, {0, 0, 0}, {0, 0, 1}, 22, 32, 24);
-  const View on_grid = perspective_view({2, 2, 2}, {2, 12, 2}, {0, 0, 1}, 1.5707963267948966, 24, 24);
-  const Light lights[] = {{-1, 0, 1, 0},     {0.3, 0.5, 0.2, 0},  {0, 0, 1, 0},   {1, 1, 0, 0},
-                          {0.7, -0.7, -0.3, 0}, {2.5, 3.5, 7.25, 1}, {2, 2, 2, 1}, {0.5, 0.25, 0.125, 1},
-                          {100, 50, 80, 1},  {-3, 4, -6, 1}};
+  const View on_grid =
+      perspective_view({2, 2, 2}, {2, 12, 2}, {0, 0, 1}, 1.5707963267948966, 24, 24);
+  const Light lights[] = {{-1, 0, 1, 0}, {0.3, 0.5, 0.2, 0},    {0, 0, 1, 0},
+                          {1, 1, 0, 0},  {0.7, -0.7, -0.3, 0},  {2.5, 3.5, 7.25, 1},
+                          {2, 2, 2, 1},  {0.5, 0.25, 0.125, 1}, {100, 50, 80, 1},
+                          {-3, 4, -6, 1}};
   for (unsigned seed = 1; seed <= 2; ++seed) {
     for (const double grid : {0.0, 2.0}) {
       for (const Light& light : lights) {
@@ -103,7 +107,8 @@ TEST(CountShadows, FastFormEqualsTheSpecificationOnSoupsWithTies) {
   std::size_t k = 0;
   for (const Case& c : hard_cases()) {
     const Receivers r = visible_surfaces(c.scene, c.view);
-    ASSERT_EQ(fast_counts(c.scene, r, c.light), count_shadows_reference(prepare_casters(c.scene), r, c.light))
+    ASSERT_EQ(fast_counts(c.scene, r, c.light),
+              count_shadows_reference(prepare_casters(c.scene), r, c.light))
         << c.name << " case " << k;
     ++k;
   }
@@ -112,13 +117,15 @@ TEST(CountShadows, FastFormEqualsTheSpecificationOnSoupsWithTies) {
 TEST(CountShadows, FastFormEqualsTheSpecificationWhereCastersHideReceivers) {
   std::size_t k = 0;
   for (Case& c : hard_cases()) {
-    // Every other triangle receives and does not cast, so rays pass through casters before they reach their sample.
+    // Every other triangle receives and does not cast, so rays pass through casters before they
+    // reach their sample.
     c.scene.surfaces.push_back({});
     c.scene.surfaces[0].receives = false;
     c.scene.surfaces[1].casts = false;
     for (std::size_t t = 0; t < c.scene.surface_of.size(); t += 2) c.scene.surface_of[t] = 1;
     const Receivers r = visible_surfaces(c.scene, c.view);
-    ASSERT_EQ(fast_counts(c.scene, r, c.light), count_shadows_reference(prepare_casters(c.scene), r, c.light))
+    ASSERT_EQ(fast_counts(c.scene, r, c.light),
+              count_shadows_reference(prepare_casters(c.scene), r, c.light))
         << c.name << " case " << k;
     ++k;
   }

@@ -16,7 +16,7 @@
 namespace gnomon {
 namespace {
 
-constexpr int kBandRows = 16;  // counts and nearness of a band stay in the second-level cache
+constexpr int kBandRows = 32;  // counts and nearness of a band stay in the second-level cache
 static_assert(kBandRows <= kBandRowsMax);
 
 // Polygons of this many bytes are set up before they are filled: several lights share one pass over

@@ -1,0 +1,91 @@
+#include <gtest/gtest.h>
+
+#include "soup.h"
+
+#include <gnomon/gnomon.h>
+
+namespace gnomon {
+namespace {
+
+Scene tower() {
+  TriMesh m;
+  test::add_ground(m, 60);
+  test::add_box(m, {-2, -2, 0}, {2, 2, 10});
+  Scene s = test::scene_of(m);
+  s.frame.place = Place{48.2 * kDegree, 16.4 * kDegree, 170};
+  return s;
+}
+
+TEST(CastShadows, MaskOfATowerIsTheStripBehindIt) {
+  const Scene s = tower();
+  const View v = plan_view({-50, -50, 50, 50}, 1, 0);
+  const ShadowMask mask =
+      cast_shadows(s, Light(0, -1, 1, 0), v);  // from the south: shadow from y = 2 to 12
+  int shadow = 0;
+  for (const std::uint8_t m : mask.state) shadow += m == ShadowMask::kShadow ? 1 : 0;
+  EXPECT_EQ(shadow, 4 * 10);
+  EXPECT_EQ(mask.state[static_cast<std::size_t>(39 * 100 + 50)], ShadowMask::kShadow);  // y = 10.5
+  EXPECT_EQ(mask.state[static_cast<std::size_t>(37 * 100 + 50)], ShadowMask::kLit);     // y = 12.5
+}
+
+TEST(CastShadows, PixelsWithoutReceiverAreMarked) {
+  const Scene s = tower();
+  const ShadowMask mask = cast_shadows(s, Light(0, -1, 1, 0), plan_view({-70, -70, 70, 70}, 10, 0));
+  EXPECT_EQ(mask.state.front(), ShadowMask::kNoSample);
+}
+
+TEST(ShadowProfile, EveryMillisecondOfDaylightIsShadowOrSun) {
+  const Scene s = tower();
+  const View v = plan_view({-50, -50, 50, 50}, 1, 0);
+  const Profile p = shadow_profile(s, v,
+                                   {.date = "2024-09-18",
+                                    .from = "05:00",
+                                    .to = "21:00",
+                                    .every = "30min",
+                                    .zone = "Europe/Vienna"})
+                        .value();
+  EXPECT_LT(p.daylight_ms, 16u * 3600000u);  // the sun was down at both ends
+  EXPECT_GT(p.daylight_ms, 11u * 3600000u);
+  std::uint32_t most = 0;
+  for (std::size_t k = 0; k < p.shadow_ms.size(); ++k) {
+    ASSERT_LE(p.shadow_ms[k], p.daylight_ms);
+    ASSERT_EQ(p.shadow_ms[k] % 1800000u, 0u);
+    most = std::max(most, p.shadow_ms[k]);
+  }
+  EXPECT_GT(most, 4u * 3600000u);
+  EXPECT_EQ(p.shadow_ms[static_cast<std::size_t>(50 * 100 + 50)], 0u);  // the roof
+}
+
+TEST(ShadowProfile, IsTheSumOfItsMasks) {
+  const Scene s = tower();
+  const View v = plan_view({-50, -50, 50, 50}, 1, 0);
+  const Samples t =
+      study_samples(
+          {.date = "2024-09-18", .from = "09:00", .to = "17:00", .every = "1h", .zone = "UTC"},
+          *s.frame.place, 0)
+          .value();
+  const Casters casters = prepare_casters(s);
+  const Receivers r = visible_surfaces(s, v);
+  const Profile p = shadow_profile(casters, r, t.midpoints);
+  std::vector<std::uint32_t> sum(p.shadow_ms.size(), 0);
+  for (const TimeSample& m : t.midpoints) {
+    if (!m.up) continue;
+    const ShadowMask mask = cast_shadows(casters, r, m.light);
+    for (std::size_t k = 0; k < sum.size(); ++k)
+      sum[k] += mask.state[k] == ShadowMask::kShadow ? m.weight_ms : 0;
+  }
+  EXPECT_EQ(sum, p.shadow_ms);
+}
+
+TEST(ShadowProfile, SceneWithoutPlaceIsAnErrorThatSaysSo) {
+  Scene s = tower();
+  s.frame.place.reset();
+  const auto p =
+      shadow_profile(s, plan_view({-5, -5, 5, 5}, 1, 0),
+                     {.date = "2024-09-18", .from = "09:00", .to = "10:00", .zone = "UTC"});
+  ASSERT_FALSE(p);
+  EXPECT_NE(p.error().message.find("place"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace gnomon
