@@ -60,11 +60,22 @@ TEST(VerificationCases, HaveASunInATrianglesPlaneAndALightAtAVertex) {
   EXPECT_EQ(choose_suns(s, 20).size(), 20u);
 }
 
-TEST(VerificationCases, ShowTheWholeModelInThePlan) {
+TEST(VerificationCases, ShowEveryTowerFromAboveAndFromOutside) {
   const Scene s = towers();
-  const Receivers r = see(s, whole_plan(s, 16).view);
-  EXPECT_EQ(r.view.width, 16);
-  EXPECT_EQ(r.view.height, 16);
+  for (const View& view : {whole_plan(s, 48).view, aerial_camera(s, 48).view}) {
+    const Receivers r = see(s, view);
+    ASSERT_EQ(r.triangle.size(), 48u * 48u);
+    int seen[3] = {0, 0, 0};
+    for (const std::uint32_t t : r.triangle) {
+      if (t == kNoTriangle) continue;
+      const Vec3 p = oracle::points_of(s.mesh, t)[0];
+      for (int k = 0; k < 3; ++k) {
+        const double x = -20 + 15 * k, y = -10 + 8 * k;
+        if (p.z > 0 && p.x >= x && p.x <= x + 6 && p.y >= y && p.y <= y + 5) ++seen[k];
+      }
+    }
+    for (const int n : seen) EXPECT_GT(n, 5);
+  }
 }
 
 }  // namespace
