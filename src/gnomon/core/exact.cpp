@@ -19,7 +19,12 @@ int light_side(const Vec3& a, const Vec3& b, const Vec3& c, const Light& light, 
 }
 
 bool zero_area(const Vec3& a, const Vec3& b, const Vec3& c) {
-  // The three components of the normal are what light_side sees of lights at infinity along the axes.
+  // The components of the normal are what lights at infinity along the axes see. Axis-parallel
+  // triangles, common in buildings, have zero components: one that is certainly not zero is enough,
+  // before any exact arithmetic.
+  for (int axis = 1; axis <= 3; ++axis) {
+    if (LightSide{a, b, c, Light(0.0)}.operator()<Approx>(0, axis, 0).certain()) return false;
+  }
   ExactStats ignored;
   return light_side(a, b, c, Light(1, 0, 0, 0), ignored) == 0;
 }

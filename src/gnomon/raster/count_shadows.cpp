@@ -40,6 +40,9 @@ struct ViewSetup {
   ScreenPoints screen;
   double least_nearness = 0;       // of all samples; infinity: there are none
   std::vector<double> band_least;  // per band
+  Vec4 largest{0, 0, 0, 1};        // bounds of the vertices' coordinates
+  std::vector<std::int8_t>
+      eye_sides;  // sign of |A; B; C; eye| per triangle; empty where C(e) is never needed
 };
 
 // One light, ready to be filled.
@@ -69,8 +72,18 @@ double least_of_triangle(const Casters& casters, const ViewSetup& v, bool parall
   return least;
 }
 
-ViewSetup set_up_view(const Casters& casters, const Receivers& r, int threads) {
+ViewSetup set_up_view(const Casters& casters, const Receivers& r, std::span<const Light> lights,
+                      int threads) {
   ViewSetup v;
+  const bool points =
+      std::any_of(lights.begin(), lights.end(), [](const Light& l) { return l.w != 0; });
+  if (!is_parallel(r.view) || points) {
+    v.eye_sides =
+        light_sides(casters.scene->mesh, r.view.eye);  // the tie rule moves eyes as it moves lights
+    for (const Vec3& p : casters.scene->mesh.positions) {
+      for (int k = 0; k < 3; ++k) v.largest[k] = std::max(v.largest[k], std::fabs(p[k]));
+    }
+  }
   v.space = screen_space(r.view);
   v.screen = project_all(v.space, casters.scene->mesh.positions, threads);
   const bool parallel = is_parallel(r.view);
@@ -96,24 +109,30 @@ ViewSetup set_up_view(const Casters& casters, const Receivers& r, int threads) {
 }
 
 // C(e): casters crossed by the segment from the eye to the light. Between two points at infinity
-// there is none.
-std::int32_t count_at_eye(const Casters& casters, const View& view, const Light& light,
+// there is none. Most casters have both on one side; of the others most are passed by so widely
+// that plain double can tell.
+std::int32_t count_at_eye(const Casters& casters, const ViewSetup& v, const View& view,
+                          const Light& light, const std::vector<std::int8_t>& sides,
                           ExactStats& stats) {
   if (is_parallel(view) && light.w == 0) return 0;
+  const TriMesh& mesh = casters.scene->mesh;
+  const H4<Bound> vertex = lift<Bound>(v.largest);
+  const double error = det4(lift<Bound>(light), lift<Bound>(view.eye), vertex, vertex).error;
+  const H4<double> l{light.x, light.y, light.z, light.w},
+      e{view.eye.x, view.eye.y, view.eye.z, view.eye.w};
+  const auto passed_by = [&](const Vec3& a, const Vec3& b, int side) {
+    return det4<double>(l, e, {a.x, a.y, a.z, 1.0}, {b.x, b.y, b.z, 1.0}) * side < -error;
+  };
   std::int32_t count = 0;
-  for (std::uint32_t t = 0; t < casters.scene->mesh.triangles.size(); ++t) {
-    if (is_caster(casters, t) &&
-        between_eye_and_light(view, corners_of(*casters.scene, t), light, stats))
-      ++count;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    const int eye = v.eye_sides[t];
+    if (sides[t] == eye || !is_caster(casters, t)) continue;
+    const Triangle& c = mesh.triangles[t];
+    const Vec3 &p0 = mesh.positions[c[0]], &p1 = mesh.positions[c[1]], &p2 = mesh.positions[c[2]];
+    if (passed_by(p0, p1, eye) || passed_by(p1, p2, eye) || passed_by(p2, p0, eye)) continue;
+    if (between_eye_and_light(view, triangle_corners(p0, p1, p2), light, stats)) ++count;
   }
   return count;
-}
-
-// As seen from the eye the edge is a point: its side covers nothing. The first test is the plan
-// view's, where every vertical edge is one; the second is exact for any view.
-bool end_on(const View& view, const Vec3& a, const Vec3& b) {
-  if (is_parallel(view) && view.eye.x == 0 && view.eye.y == 0) return a.x == b.x && a.y == b.y;
-  return seen_end_on(view, a, b);
 }
 
 void add_side(LightSetup& s, const ViewSetup& v, const Casters& casters, const View& view,
@@ -123,7 +142,7 @@ void add_side(LightSetup& s, const ViewSetup& v, const Casters& casters, const V
   const PolygonEquations<double> q =
       polygon_equations(v.screen.points[e.a], v.screen.points[e.b], minus_light);
   const Vec3 &a = casters.scene->mesh.positions[e.a], &b = casters.scene->mesh.positions[e.b];
-  if (std::fabs(q.f) <= errors.f && end_on(view, a, b)) return;
+  if (std::fabs(q.f) <= errors.f && seen_end_on(view, a, b)) return;
   Polygon p = set_up(q, errors, v.space, view, side_corners(a, b), s.light, s.stats);
   set_rows(p, q, errors, v.space, v.least_nearness);
   if (p.first_row >= p.end_row) return;
@@ -187,7 +206,7 @@ LightSetup set_up_light(const Casters& casters, const Receivers& r, const ViewSe
   }
   s.sides = s.polygons.size();
   if (r.casters_in_front) add_casters(s, v, casters, r.view, sides);
-  s.eye_count = count_at_eye(casters, r.view, s.light, s.stats);
+  s.eye_count = count_at_eye(casters, v, r.view, s.light, sides, s.stats);
   bin_polygons(s, static_cast<int>(v.band_least.size()));
   if (r.receivers_not_casting) {
     s.unlit.assign(scene.mesh.triangles.size(), 0);
@@ -300,7 +319,7 @@ CountStats count_shadows(const Casters& casters, const Receivers& receivers,
                          std::span<const Light> lights, const BandSink& sink, int threads) {
   CountStats stats;
   std::mutex stats_mutex;
-  const ViewSetup view = set_up_view(casters, receivers, threads);
+  const ViewSetup view = set_up_view(casters, receivers, lights, threads);
   const int bands = static_cast<int>(view.band_least.size());
   // A third of the edges of closed meshes are on the silhouette of a sun at most; the rest is
   // refused when it is set up.

@@ -47,6 +47,11 @@ Prepared prepare(const Scene& scene, const View& view, const ScreenSpace& space,
     const ScreenPoint<double> p[3] = {screen.points[v[0]], screen.points[v[1]],
                                       screen.points[v[2]]};
     const PolygonEquations<double> q = polygon_equations(p[0], p[1], p[2]);
+    if (is_parallel(view) && std::fabs(q.f) <= errors.f &&
+        seen_edge_on(view, scene.mesh.positions[v[0]], scene.mesh.positions[v[1]],
+                     scene.mesh.positions[v[2]])) {
+      continue;  // a wall seen from above
+    }
     Polygon polygon = set_up(q, errors, space, view, corners_of(scene, t), Light(0.0), stats);
     set_rows(polygon, q, errors, space, -std::numeric_limits<double>::infinity());
     if (polygon.first_row >= polygon.end_row) continue;

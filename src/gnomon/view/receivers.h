@@ -1,4 +1,5 @@
-// The samples of a view: which triangle each pixel's ray meets first. Filled by raster (visible_surfaces).
+// The samples of a view: which triangle each pixel's ray meets first. Filled by raster
+// (visible_surfaces).
 #pragma once
 
 #include <cstdint>
@@ -13,12 +14,15 @@ inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;
 struct Receivers {
   View view;
   // Row-major, row 0 at the top, width * height each.
-  std::vector<std::uint32_t> triangle;  // index into the scene's triangles; kNoTriangle: the ray meets no receiver (nodata)
-  // Nearness (see view.h), rounded to float with relative error at most 2^-23 or absolute error nearness_floor, whichever is
-  // larger. +infinity where there is no sample. NaN: too uncertain for a float, always decided exactly.
+  std::vector<std::uint32_t> triangle;  // index into the scene's triangles; kNoTriangle: the ray
+                                        // meets no receiver (nodata)
+  // Nearness (see view.h), rounded to float with relative error at most 2^-23 or absolute error
+  // nearness_floor, whichever is larger. +infinity where there is no sample. NaN: too uncertain for
+  // a float, always decided exactly.
   std::vector<float> nearness;
   double nearness_floor = 0;
-  bool casters_in_front = false;  // some caster does not receive: rays may cross casters before they reach their sample
+  bool casters_in_front =
+      false;  // some caster does not receive: rays may cross casters before they reach their sample
   bool receivers_not_casting = false;
 };
 

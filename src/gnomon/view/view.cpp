@@ -9,7 +9,8 @@
 namespace gnomon {
 namespace {
 
-// Bounds given as decimal numbers divide a pixel size only up to rounding; a sliver of a millionth of a pixel adds no pixel.
+// Bounds given as decimal numbers divide a pixel size only up to rounding; a sliver of a millionth
+// of a pixel adds no pixel.
 constexpr double kPixelSlack = 1e-6;
 
 int pixels(double length, double pixel) {
@@ -29,8 +30,8 @@ View plan_view(const Bounds2& bounds, double pixel, double z) {
   return v;
 }
 
-View perspective_view(const Vec3& eye, const Vec3& target, const Vec3& up, double vertical_fov, int width,
-                      int height) {
+View perspective_view(const Vec3& eye, const Vec3& target, const Vec3& up, double vertical_fov,
+                      int width, int height) {
   const Vec3 forward = glm::normalize(target - eye);
   const Vec3 right = glm::normalize(glm::cross(forward, up));
   const Vec3 top = glm::cross(right, forward);
@@ -45,8 +46,8 @@ View perspective_view(const Vec3& eye, const Vec3& target, const Vec3& up, doubl
   return v;
 }
 
-View orthographic_view(const Vec3& eye, const Vec3& target, const Vec3& up, double height_m, int width,
-                       int height) {
+View orthographic_view(const Vec3& eye, const Vec3& target, const Vec3& up, double height_m,
+                       int width, int height) {
   const Vec3 forward = glm::normalize(target - eye);
   const Vec3 right = glm::normalize(glm::cross(forward, up));
   const Vec3 top = glm::cross(right, forward);
