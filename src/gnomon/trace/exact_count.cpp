@@ -44,13 +44,11 @@ struct NearSample {
   std::array<Approx, 6> line;  // minors of (L, p)
 };
 
-NearSample near_sample(const View& view, const Pixel& at, const Points& r, int seen,
-                       const Light& light) {
+NearSample near_sample(const oracle::SamplePoint& sample, int seen, const Light& light) {
   NearSample s;
-  const H4<Approx> e = oracle::eye<Approx>(view, 0), q = oracle::pixel<Approx>(view, at, 0);
+  const H4<Approx> p = sample.at<Approx>(0, 0);
   const Approx sign(static_cast<double>(seen));
-  const Approx re = sign * oracle::plane<Approx>(r, e), rq = sign * oracle::plane<Approx>(r, q);
-  s.p = {re * q.x - rq * e.x, re * q.y - rq * e.y, re * q.z - rq * e.z, re * q.w - rq * e.w};
+  s.p = {sign * p.x, sign * p.y, sign * p.z, sign * p.w};
   s.line = minors(lift<Approx>(light), s.p);
   return s;
 }
@@ -76,24 +74,20 @@ bool probe_of(const NearSample& s, const Light& light, Probe& probe) {
 
 // oracle::crosses() with the same answer, decided from the approximate sample where that is
 // certain.
-bool crosses(const Shot& shot, const Pixel& at, const NearSample& s, const Points& r,
+bool crosses(const Shot& shot, const oracle::SamplePoint& sample, const NearSample& s,
              std::uint32_t receiver, int seen, std::uint32_t caster, ExactStats& stats) {
-  const View& view = shot.receivers.view;
   const Points t = points_of(shot.scene.mesh, caster);
   const int front = -shot.lit[caster];
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec3 &a = t[k], &b = t[(k + 1) % 3];
     const Approx side = line_product(s.line, a, b);
-    const int sign = side.certain()
-                         ? side.sign()
-                         : seen * oracle::edge_side_of(view, at, r, shot.light, a, b, stats);
+    const int sign =
+        side.certain() ? side.sign() : seen * oracle::edge_side_of(sample, shot.light, a, b, stats);
     if (sign != front) return false;
   }
-  if (caster == receiver) return oracle::eye_side(view, t, stats) == front;
-  const Approx side = oracle::plane<Approx>(t, s.p);
-  if (side.certain()) return side.sign() == front;
-  const int exact = seen * oracle::sample_side(view, at, r, t, stats);
-  return (exact != 0 ? exact : oracle::eye_side(view, t, stats)) == front;
+  if (caster == receiver) return seen == front;
+  const int side = seen * oracle::sample_side(sample, t, stats);
+  return (side != 0 ? side : oracle::eye_side(sample.view(), t, stats)) == front;
 }
 
 std::int32_t at_least_one_if_turned_away(const Scene& scene, std::uint32_t receiver, int lit,
@@ -106,11 +100,12 @@ std::int32_t count_at(const Shot& shot, const Bvh& bvh, const Pixel& at, std::ui
   const View& view = shot.receivers.view;
   const Points r = points_of(shot.scene.mesh, receiver);
   const int seen = oracle::eye_side(view, r, stats.signs);
-  const NearSample sample = near_sample(view, at, r, seen, shot.light);
+  const oracle::SamplePoint point(view, at, r);
+  const NearSample sample = near_sample(point, seen, shot.light);
   std::int32_t n = 0;
   const auto test = [&](std::uint32_t caster) {
     ++stats.candidates;
-    n += crosses(shot, at, sample, r, receiver, seen, caster, stats.signs) ? 1 : 0;
+    n += crosses(shot, point, sample, receiver, seen, caster, stats.signs) ? 1 : 0;
   };
   ++stats.samples;
   Probe probe;
@@ -176,8 +171,8 @@ bool meets(const View& view, const Pixel& at, const std::array<Approx, 6>& line,
 bool replaces(const Scene& scene, const View& view, const Pixel& at, std::uint32_t t, int seen_t,
               std::uint32_t best, int seen_best, ExactStats& stats) {
   if (best == kNoTriangle) return true;
-  const int side =
-      oracle::sample_side(view, at, points_of(scene.mesh, best), points_of(scene.mesh, t), stats);
+  const int side = oracle::sample_side(oracle::SamplePoint(view, at, points_of(scene.mesh, best)),
+                                       points_of(scene.mesh, t), stats);
   return side == 0 ? t < best : seen_best * side != seen_t;
 }
 
@@ -261,12 +256,13 @@ std::int32_t exact_count_at(const Scene& scene, const Receivers& receivers, cons
   const Light from = snapped(light);
   const Points r = points_of(scene.mesh, receiver);
   const int seen = oracle::eye_side(view, r, s);
+  const oracle::SamplePoint sample(view, {column, row}, r);
   std::int32_t n = 0;
   for (std::uint32_t t = 0; t < scene.mesh.triangles.size(); ++t) {
     if (!casts(scene, t)) continue;
     const Points caster = points_of(scene.mesh, t);
     const int lit = oracle::light_side_of(caster, from, s);
-    n += oracle::crosses(view, {column, row}, r, seen, caster, lit, from, s) ? 1 : 0;
+    n += oracle::crosses(sample, seen, caster, lit, from, s) ? 1 : 0;
   }
   return at_least_one_if_turned_away(scene, receiver, oracle::light_side_of(r, from, s), seen, n);
 }

@@ -25,6 +25,8 @@
 #pragma once
 
 #include <array>
+#include <optional>
+#include <type_traits>
 
 #include <gnomon/core/exact.h>
 #include <gnomon/mesh/tri_mesh.h>
@@ -79,28 +81,78 @@ inline int light_side_of(const Points& t, const Light& light, ExactStats& stats)
   return tie_sign({.eye = false, .light = true, .pixel = false}, stats, polynomial);
 }
 
-// sign |t;p| S: the side of t's plane on which the sample on r lies, up to S; 0 exactly if t lies
-// in r's plane.
-inline int sample_side(const View& view, const Pixel& at, const Points& r, const Points& t,
-                       ExactStats& stats) {
+// The sample p / S of a pixel on the plane of r, for every order of infinitesimals. Exact
+// coordinates are long to compute and asked for again by each caster, so they are kept. Not to be
+// shared between threads.
+class SamplePoint {
+ public:
+  SamplePoint(const View& view, const Pixel& at, const Points& r) : view_(view), at_(at), r_(r) {}
+
+  const View& view() const { return view_; }
+  const Points& r() const { return r_; }
+
+  // |r;e| q - |r;q| e with e and q replaced by the coefficients of their infinitesimals.
+  template <class T>
+  H4<T> at(int e, int q) const {
+    if constexpr (std::is_same_v<T, Dyadic>) {
+      std::optional<H4<Dyadic>>& kept = kept_[static_cast<std::size_t>(3 * e + q)];
+      if (!kept) kept = compute<Dyadic>(e, q);
+      return *kept;
+    } else {
+      return compute<T>(e, q);
+    }
+  }
+
+ private:
+  template <class T>
+  H4<T> compute(int e, int q) const {
+    const H4<T> x = eye<T>(view_, e), y = pixel<T>(view_, at_, q);
+    const T rx = plane<T>(r_, x), ry = plane<T>(r_, y);
+    return {rx * y.x - ry * x.x, rx * y.y - ry * x.y, rx * y.z - ry * x.z, rx * y.w - ry * x.w};
+  }
+
+  const View& view_;
+  Pixel at_;
+  Points r_;
+  mutable std::array<std::optional<H4<Dyadic>>, 12> kept_;  // 4 orders of e, 3 of q
+};
+
+// True if both triangles lie in one plane: |t;x| vanishes at three points of r's plane that are not
+// on one line, so on all of it.
+inline bool coplanar(const Points& r, const Points& t) {
+  for (const Vec3& x : r) {
+    if (x == t[0] || x == t[1] || x == t[2]) continue;
+    if (plane<Approx>(t, lift<Approx>(x)).certain()) return false;
+    if (plane<Dyadic>(t, lift<Dyadic>(x)).sign() != 0) return false;
+  }
+  return true;
+}
+
+// sign |t;p| S: the side of t's plane on which the sample lies, up to S; 0 exactly if t lies in r's
+// plane.
+inline int sample_side(const SamplePoint& sample, const Points& t, ExactStats& stats) {
   const auto polynomial = [&]<class T>(int e, int, int q) {
-    const H4<T> x = eye<T>(view, e), y = pixel<T>(view, at, q);
-    return plane<T>(r, x) * plane<T>(t, y) - plane<T>(r, y) * plane<T>(t, x);
+    return plane<T>(t, sample.at<T>(e, q));
   };
+  const Approx approx = polynomial.template operator()<Approx>(0, 0, 0);
+  if (approx.certain()) return approx.sign();
+  if (coplanar(sample.r(), t)) {  // saves finding all twelve coefficients to be zero
+    ++stats.exact;
+    ++stats.ties;
+    return 0;
+  }
   return tie_sign({.eye = true, .light = false, .pixel = true}, stats, polynomial);
 }
 
 // sign |L;p;A;B| S: on which side of the line from the light to the sample the edge passes. Never 0
 // for A != B.
-inline int edge_side_of(const View& view, const Pixel& at, const Points& r, const Light& light,
-                        const Vec3& a, const Vec3& b, ExactStats& stats) {
+inline int edge_side_of(const SamplePoint& sample, const Light& light, const Vec3& a, const Vec3& b,
+                        ExactStats& stats) {
   const bool at_vertex =
       light == point(a) || light == point(b);  // two equal rows: zero unless the light moves
   const auto polynomial = [&]<class T>(int e, int l, int q) {
     if (l == 0 && at_vertex) return T(0.0);
-    const H4<T> x = eye<T>(view, e), y = pixel<T>(view, at, q), s = lift<T>(order_of(light, l));
-    const H4<T> p = lift<T>(a), o = lift<T>(b);
-    return plane<T>(r, x) * det4<T>(s, y, p, o) - plane<T>(r, y) * det4<T>(s, x, p, o);
+    return det4<T>(lift<T>(order_of(light, l)), sample.at<T>(e, q), lift<T>(a), lift<T>(b));
   };
   return tie_sign({.eye = true, .light = true, .pixel = true}, stats, polynomial);
 }
@@ -116,16 +168,15 @@ inline int ray_side(const View& view, const Pixel& at, const Vec3& a, const Vec3
   return tie_sign({.eye = true, .light = false, .pixel = true}, stats, polynomial);
 }
 
-// True if the segment from just in front of the sample on r to the light crosses t. `seen`: sign
-// |r;e|; `lit`: sign |t;L|. The slow clear version: every sign by the predicates above, none left
-// out.
-inline bool crosses(const View& view, const Pixel& at, const Points& r, int seen, const Points& t,
-                    int lit, const Light& light, ExactStats& stats) {
-  int front = seen * sample_side(view, at, r, t, stats);
-  if (front == 0) front = eye_side(view, t, stats);
+// True if the segment from just in front of the sample to the light crosses t. `seen`: sign |r;e|;
+// `lit`: sign |t;L|. The slow clear version: every sign by the predicates above, none left out.
+inline bool crosses(const SamplePoint& sample, int seen, const Points& t, int lit,
+                    const Light& light, ExactStats& stats) {
+  int front = seen * sample_side(sample, t, stats);
+  if (front == 0) front = eye_side(sample.view(), t, stats);
   if (lit == front) return false;
   for (std::size_t k = 0; k < 3; ++k) {
-    if (seen * edge_side_of(view, at, r, light, t[k], t[(k + 1) % 3], stats) != front) return false;
+    if (seen * edge_side_of(sample, light, t[k], t[(k + 1) % 3], stats) != front) return false;
   }
   return true;
 }
