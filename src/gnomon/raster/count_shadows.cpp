@@ -21,7 +21,7 @@ static_assert(kBandRows <= kBandRowsMax);
 
 // Polygons of this many bytes are set up before they are filled: several lights share one pass over
 // the bands.
-constexpr std::size_t kBatchBytes = std::size_t{64} << 20;
+constexpr std::size_t kBatchBytes = std::size_t{192} << 20;
 constexpr std::size_t kBatchLights = 64;
 
 Corners corners_of(const Scene& scene, std::uint32_t triangle) {
@@ -143,12 +143,17 @@ void add_side(LightSetup& s, const ViewSetup& v, const Casters& casters, const V
       polygon_equations(v.screen.points[e.a], v.screen.points[e.b], minus_light);
   const Vec3 &a = casters.scene->mesh.positions[e.a], &b = casters.scene->mesh.positions[e.b];
   if (std::fabs(q.f) <= errors.f && seen_end_on(view, a, b)) return;
-  Polygon p = set_up(q, errors, v.space, view, side_corners(a, b), s.light, s.stats);
-  set_rows(p, q, errors, v.space, v.least_nearness);
-  if (p.first_row >= p.end_row) return;
+  Polygon& p = s.polygons.emplace_back();
+  set_up(p, q, errors, v.space, view, side_corners(a, b), s.light, s.stats);
+  if (is_parallel(view) && s.light.w == 0) {
+    set_rows_of_strip(p, v.screen.points[e.a], v.screen.points[e.b], minus_light, v.space,
+                      v.least_nearness);
+  } else {
+    set_rows(p, q, errors, v.space, v.least_nearness);
+  }
   p.add = -e.multiplicity * p.facing;
   p.id = index;
-  s.polygons.push_back(p);
+  if (p.first_row >= p.end_row) s.polygons.pop_back();
 }
 
 void add_casters(LightSetup& s, const ViewSetup& v, const Casters& casters, const View& view,
@@ -161,12 +166,12 @@ void add_casters(LightSetup& s, const ViewSetup& v, const Casters& casters, cons
     const Triangle& c = scene.mesh.triangles[t];
     const PolygonEquations<double> q =
         polygon_equations(v.screen.points[c[0]], v.screen.points[c[1]], v.screen.points[c[2]]);
-    Polygon p = set_up(q, errors, v.space, view, corners_of(scene, t), s.light, s.stats);
+    Polygon& p = s.polygons.emplace_back();
+    set_up(p, q, errors, v.space, view, corners_of(scene, t), s.light, s.stats);
     set_rows(p, q, errors, v.space, v.least_nearness);
-    if (p.first_row >= p.end_row) continue;
     p.add = sides[t] * p.facing;  // +1 from the lit to the unlit side
     p.id = t;
-    s.polygons.push_back(p);
+    if (p.first_row >= p.end_row) s.polygons.pop_back();
   }
 }
 

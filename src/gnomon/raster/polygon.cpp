@@ -51,19 +51,19 @@ EquationErrors equation_errors(const ScreenPoint<Bound>& p0, const ScreenPoint<B
   return e;
 }
 
-Polygon set_up(const PolygonEquations<double>& q, const EquationErrors& errors,
-               const ScreenSpace& space, const View& view, const Corners& corners,
-               const Light& light, ExactStats& stats) {
-  Polygon p;
+void set_up(Polygon& p, const PolygonEquations<double>& q, const EquationErrors& errors,
+            const ScreenSpace& space, const View& view, const Corners& corners, const Light& light,
+            ExactStats& stats) {
   const bool certain = std::fabs(q.f) > errors.f;
   p.facing = certain ? (q.f > 0 ? space.orientation : -space.orientation)
                      : facing(view, corners, light, stats);
   const double inside = p.facing * space.orientation;
+  p.inverse_ga = p.error_absolute = p.error_relative = 0;
   for (int k = 0; k < 3; ++k)
     p.edges[k] = row_edge(q.edges[k], errors.edges[k], inside, space.width, space.height);
   if (std::fabs(q.f) < 4 * errors.f) {  // seen (nearly) edge-on: its nearness is anybody's guess
     p.g = {0, 0, std::numeric_limits<double>::quiet_NaN()};
-    return p;
+    return;
   }
   const double inverse = 1 / q.f;
   p.g = {q.n.a * inverse, q.n.b * inverse, q.n.c * inverse};
@@ -74,7 +74,6 @@ Polygon set_up(const PolygonEquations<double>& q, const EquationErrors& errors,
   p.error_relative = errors.f / least * kInflate;
   // A cut by nearness is an optimisation: only where it is sharper than the picture is wide.
   if (std::fabs(p.g.a) * space.width > 4 * p.error_absolute) p.inverse_ga = 1 / p.g.a;
-  return p;
 }
 
 void refine_nearness(Polygon& p, const ScreenPoint<double> (&corners)[3],
@@ -147,6 +146,33 @@ void set_rows(Polygon& p, const PolygonEquations<double>& q, const EquationError
   }
   p.first_row = n == 0 ? 0 : std::max(0, static_cast<int>(std::floor(low)) - 1);
   p.end_row = n == 0 ? 0 : std::min(space.height, static_cast<int>(std::ceil(high)) + 1);
+}
+
+void set_rows_of_strip(Polygon& p, const ScreenPoint<double>& a, const ScreenPoint<double>& b,
+                       const ScreenPoint<double>& behind, const ScreenSpace& space, double least) {
+  const double margin =
+      p.error_absolute * 2 + (p.error_relative + kNearnessRoundoff) * 2 * std::fabs(least);
+  constexpr double kForever = std::numeric_limits<double>::infinity();
+  double low_x = kForever, high_x = -kForever, low_y = kForever, high_y = -kForever;
+  bool reaches = false;
+  for (const ScreenPoint<double>* corner : {&a, &b}) {
+    // How far the strip runs, in lengths of `behind`, before it is too deep to matter.
+    const double length = behind.z < 0 ? (corner->z - least + margin) / -behind.z : kForever;
+    reaches = reaches || length >= 0;
+    const auto far_end = [&](double from, double step) {
+      return step == 0 ? from : from + std::max(length, 0.0) * step;
+    };
+    const double x = far_end(corner->x, behind.x), y = far_end(corner->y, behind.y);
+    low_x = std::min({low_x, corner->x, x});
+    high_x = std::max({high_x, corner->x, x});
+    low_y = std::min({low_y, corner->y, y});
+    high_y = std::max({high_y, corner->y, y});
+  }
+  p.first_row = p.end_row = 0;
+  if (!reaches || high_x < -1 || low_x > space.width + 1 || high_y < -1 || low_y > space.height + 1)
+    return;
+  p.first_row = static_cast<int>(std::max(0.0, std::floor(low_y) - 1));
+  p.end_row = static_cast<int>(std::min<double>(space.height, std::ceil(high_y) + 1));
 }
 
 Span exact_span(const Polygon& p, const ExactPolygon& exact, int row, ExactStats& stats) {

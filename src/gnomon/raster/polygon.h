@@ -82,9 +82,9 @@ struct Polygon {
 
 // Fills edges, nearness and facing from the equations. `corners` are read only if the filter cannot
 // tell the facing.
-Polygon set_up(const PolygonEquations<double>& q, const EquationErrors& errors,
-               const ScreenSpace& space, const View& view, const Corners& corners,
-               const Light& light, ExactStats& stats);
+void set_up(Polygon& p, const PolygonEquations<double>& q, const EquationErrors& errors,
+            const ScreenSpace& space, const View& view, const Corners& corners, const Light& light,
+            ExactStats& stats);
 
 // Replaces the polygon's nearness by one with a bound of its own, valid inside the polygon:
 // computed in pixel coordinates around its first corner, where little cancels. For polygons whose
@@ -97,6 +97,11 @@ void refine_nearness(Polygon& p, const ScreenPoint<double> (&corners)[3],
 // first_row >= end_row).
 void set_rows(Polygon& p, const PolygonEquations<double>& q, const EquationErrors& errors,
               const ScreenSpace& space, double least);
+
+// The same for the side over the edge a b in a parallel view with a light at infinity: a strip from
+// the edge along `behind` (minus the light), which ends where it is deeper than `least`.
+void set_rows_of_strip(Polygon& p, const ScreenPoint<double>& a, const ScreenPoint<double>& b,
+                       const ScreenPoint<double>& behind, const ScreenSpace& space, double least);
 
 struct Span {
   int begin = 0, end = 0;  // pixels of a row: [begin, end)

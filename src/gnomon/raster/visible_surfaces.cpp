@@ -52,7 +52,8 @@ Prepared prepare(const Scene& scene, const View& view, const ScreenSpace& space,
                      scene.mesh.positions[v[2]])) {
       continue;  // a wall seen from above
     }
-    Polygon polygon = set_up(q, errors, space, view, corners_of(scene, t), Light(0.0), stats);
+    Polygon polygon;
+    set_up(polygon, q, errors, space, view, corners_of(scene, t), Light(0.0), stats);
     set_rows(polygon, q, errors, space, -std::numeric_limits<double>::infinity());
     if (polygon.first_row >= polygon.end_row) continue;
     refine_nearness(polygon, p, screen.bound, space);
