@@ -21,8 +21,8 @@ static_assert(kBandRows <= kBandRowsMax);
 
 // Polygons of this many bytes are set up before they are filled: several lights share one pass over
 // the bands.
-constexpr std::size_t kBatchBytes = std::size_t{192} << 20;
-constexpr std::size_t kBatchLights = 64;
+constexpr std::size_t kBatchBytes = std::size_t{96} << 20;
+constexpr std::size_t kBatchLights = 16;
 
 Corners corners_of(const Scene& scene, std::uint32_t triangle) {
   const Triangle& t = scene.mesh.triangles[triangle];
@@ -194,9 +194,10 @@ void bin_polygons(LightSetup& s, int bands) {
   }
 }
 
-LightSetup set_up_light(const Casters& casters, const Receivers& r, const ViewSetup& v,
-                        const Light& light) {
-  LightSetup s;
+void set_up_light(LightSetup& s, const Casters& casters, const Receivers& r, const ViewSetup& v,
+                  const Light& light) {
+  s.polygons.clear();  // but keep their memory: pages that the system must not clear again
+  s.stats = {};
   s.light = snapped(light);
   const Scene& scene = *casters.scene;
   const std::vector<std::int8_t> sides = light_sides(scene.mesh, s.light, &s.stats);
@@ -220,7 +221,6 @@ LightSetup set_up_light(const Casters& casters, const Receivers& r, const ViewSe
       s.unlit[t] = sides[t] != facing(r.view, corners_of(scene, t), s.light, s.stats);
     }
   }
-  return s;
 }
 
 class Exact final : public ExactDecisions {
@@ -273,7 +273,8 @@ class Exact final : public ExactDecisions {
 // Rows of the picture with everything that does not depend on the light.
 struct BandMemory {
   int first_row, rows, stride;
-  std::vector<float> nearness;
+  const float* nearness;
+  std::vector<float> padded;  // of the last band, beyond whose end nothing may be read
   std::vector<std::int32_t> counts;
 
   BandMemory(const Receivers& r, int band)
@@ -281,13 +282,14 @@ struct BandMemory {
         rows(std::min(kBandRows, r.view.height - first_row)),
         stride(r.view.width + kPadding) {
     const std::size_t width = static_cast<std::size_t>(r.view.width),
-                      step = static_cast<std::size_t>(stride);
-    nearness.assign(static_cast<std::size_t>(rows) * step, std::numeric_limits<float>::infinity());
-    counts.resize(nearness.size());
-    for (std::size_t row = 0; row < static_cast<std::size_t>(rows); ++row) {
-      std::copy_n(r.nearness.data() + (static_cast<std::size_t>(first_row) + row) * width, width,
-                  nearness.data() + row * step);
+                      n = static_cast<std::size_t>(rows);
+    nearness = r.nearness.data() + static_cast<std::size_t>(first_row) * width;
+    if (r.nearness.size() < static_cast<std::size_t>(first_row + rows) * width + kPadding) {
+      padded.assign(n * width + kPadding, 0.0F);
+      std::copy_n(nearness, n * width, padded.data());
+      nearness = padded.data();
     }
+    counts.resize(n * static_cast<std::size_t>(stride));
   }
 };
 
@@ -332,12 +334,12 @@ CountStats count_shadows(const Casters& casters, const Receivers& receivers,
       std::max<std::size_t>(1, casters.edges.vertices.size() / 3 * sizeof(Polygon));
   const std::size_t batch = std::clamp<std::size_t>(kBatchBytes / bytes, 1, kBatchLights);
 
+  std::vector<LightSetup> setups(std::min(batch, lights.size()));
   for (std::size_t begin = 0; begin < lights.size(); begin += batch) {
     const std::size_t n = std::min(batch, lights.size() - begin);
-    std::vector<LightSetup> setups(n);
     parallel_for(static_cast<int>(n), threads, [&](int i) {
-      setups[static_cast<std::size_t>(i)] =
-          set_up_light(casters, receivers, view, lights[begin + static_cast<std::size_t>(i)]);
+      set_up_light(setups[static_cast<std::size_t>(i)], casters, receivers, view,
+                   lights[begin + static_cast<std::size_t>(i)]);
     });
     parallel_for(bands, threads, [&](int b) {
       BandMemory memory(receivers, b);
@@ -359,7 +361,8 @@ CountStats count_shadows(const Casters& casters, const Receivers& receivers,
         job.rows = memory.rows;
         job.width = receivers.view.width;
         job.stride = memory.stride;
-        job.nearness = memory.nearness.data();
+        job.nearness = memory.nearness;
+        job.nearness_stride = receivers.view.width;
         job.counts = memory.counts.data();
         job.least_nearness = view.band_least[static_cast<std::size_t>(b)];
         job.nearness_floor = receivers.nearness_floor;
@@ -381,7 +384,8 @@ CountStats count_shadows(const Casters& casters, const Receivers& receivers,
       stats.depths += local.depths;
       stats.close += local.close;
     });
-    for (const LightSetup& s : setups) {
+    for (std::size_t i = 0; i < n; ++i) {
+      const LightSetup& s = setups[i];
       stats.signs += s.stats;
       stats.sides += s.silhouette.size();
       stats.triangles += casters.scene->mesh.triangles.size();

@@ -63,10 +63,11 @@ void FindSpans(const Polygon& p, const BandJob& job, int first, int rows, RowSpa
     const auto y = hn::Add(hn::Set(d, first + i + kPixelCentre), hn::Iota(d, 0.0));
     auto begin = zero, end = width;
     auto undecided = hn::Lt(zero, zero);
-    for (const RowEdge& e : p.edges) {
+    for (int edge = 0; edge < 3; ++edge) {
+      const RowEdge& e = p.edges[edge];
       const auto x = hn::Add(hn::Set(d, e.x0), hn::Mul(hn::Set(d, e.k), y));
       const auto slack = hn::Set(d, e.slack);
-      if (e.kind == RowEdge::kFlat) {
+      if (p.kinds[edge] == EdgeKind::kFlat) {
         end = hn::IfThenElse(hn::Lt(x, hn::Neg(slack)), zero, end);
         undecided = hn::Or(undecided, hn::Not(hn::Gt(x, slack)));
         continue;
@@ -74,7 +75,7 @@ void FindSpans(const Polygon& p, const BandJob& job, int first, int rows, RowSpa
       const auto middle = hn::Add(x, half);
       const auto low = hn::Floor(hn::Sub(middle, slack)), high = hn::Floor(hn::Add(middle, slack));
       undecided = hn::Or(undecided, hn::Lt(low, high));
-      if (e.kind == RowEdge::kLower) {
+      if (p.kinds[edge] == EdgeKind::kLower) {
         begin = hn::Max(begin, low);
       } else {
         end = hn::Min(end, high);
@@ -147,10 +148,9 @@ void FillPolygon(const Polygon& p, const BandJob& job, RowSpans& spans, int firs
       spans.error[i] =
           static_cast<float>(comparison_error(p, job, start, start + p.g.a * (end - begin)));
     }
-    const std::ptrdiff_t base =
-        static_cast<std::ptrdiff_t>(row - job.first_row) * job.stride + begin;
-    const float* nearness = job.nearness + base;
-    std::int32_t* counts = job.counts + base;
+    const std::ptrdiff_t y = row - job.first_row;
+    const float* nearness = job.nearness + y * job.nearness_stride + begin;
+    std::int32_t* counts = job.counts + y * job.stride + begin;
     const auto start = hn::Set(f, spans.start[i]), error = hn::Set(f, spans.error[i]);
     const auto n = hn::Set(f, static_cast<float>(end - begin));
     for (int x = 0; x < end - begin; x += lanes) {

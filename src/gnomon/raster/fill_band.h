@@ -31,11 +31,13 @@ struct BandJob {
   const std::uint32_t* selected = nullptr;  // indices into polygons
   std::size_t count = 0;
   int first_row = 0, rows = 0, width = 0;
-  int stride = 0;                   // of nearness and counts; at least width + kPadding
-  const float* nearness = nullptr;  // rows x stride; +infinity beyond the width
-  std::int32_t* counts = nullptr;   // rows x stride; added to
-  double least_nearness = 0;        // of the band's samples; infinity: there are none
-  double nearness_floor = 0;        // absolute error of nearness
+  const float* nearness =
+      nullptr;  // of the rows; kPadding more may be read at the end (their values do not matter)
+  int nearness_stride = 0;
+  std::int32_t* counts = nullptr;  // of the rows, added to; kPadding more after each row
+  int stride = 0;                  // of counts; at least width + kPadding
+  double least_nearness = 0;       // of the band's samples; infinity: there are none
+  double nearness_floor = 0;       // absolute error of nearness
   ExactDecisions* exact = nullptr;
 };
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 #include <gnomon/core/exact.h>
 
@@ -15,30 +17,33 @@ constexpr double kCrossingRoundoff = 8 * kUnitRoundoff;
 // span elsewhere.
 constexpr double kNearnessRoundoff = 8 * kUnitRoundoff;
 
-RowEdge row_edge(const Linear<double>& line, const Linear<double>& error, double inside, int width,
-                 int height) {
+std::pair<RowEdge, EdgeKind> row_edge(const Linear<double>& line, const Linear<double>& error,
+                                      double inside, int width, int height) {
   const double a = line.a * inside, b = line.b * inside, c = line.c * inside;
   const double total = error.a * width + error.b * height + error.c;
   RowEdge e;
   if (std::fabs(a) > 2 * error.a) {
     const double inverse = 1 / a;
-    e.kind = a > 0 ? RowEdge::kLower : RowEdge::kUpper;
     e.x0 = -c * inverse;
     e.k = -b * inverse;
     e.slack = total / (std::fabs(a) - error.a) * kInflate +
               kCrossingRoundoff * (std::fabs(e.x0) + std::fabs(e.k) * height + 1);
-    if (e.slack < width) return e;
+    if (e.slack < width) return {e, a > 0 ? EdgeKind::kLower : EdgeKind::kUpper};
   }
   // (Nearly) parallel to the rows: the whole row is inside, outside or undecided.
-  e.kind = RowEdge::kFlat;
   e.x0 = c;
   e.k = b;
   e.slack = (std::fabs(a) * width + total) * kInflate +
             kCrossingRoundoff * (std::fabs(c) + std::fabs(b) * height) + kUnderflowGuard;
-  return e;
+  return {e, EdgeKind::kFlat};
 }
 
 }  // namespace
+
+float rounded_up(double x) {
+  const auto f = static_cast<float>(x);
+  return static_cast<double>(f) < x ? std::nextafter(f, std::numeric_limits<float>::infinity()) : f;
+}
 
 EquationErrors equation_errors(const ScreenPoint<Bound>& p0, const ScreenPoint<Bound>& p1,
                                const ScreenPoint<Bound>& p2, int width, int height) {
@@ -55,12 +60,14 @@ void set_up(Polygon& p, const PolygonEquations<double>& q, const EquationErrors&
             const ScreenSpace& space, const View& view, const Corners& corners, const Light& light,
             ExactStats& stats) {
   const bool certain = std::fabs(q.f) > errors.f;
-  p.facing = certain ? (q.f > 0 ? space.orientation : -space.orientation)
-                     : facing(view, corners, light, stats);
+  p.facing = static_cast<std::int8_t>(certain ? (q.f > 0 ? space.orientation : -space.orientation)
+                                              : facing(view, corners, light, stats));
   const double inside = p.facing * space.orientation;
-  p.inverse_ga = p.error_absolute = p.error_relative = 0;
+  p.inverse_ga = 0;
+  p.error_absolute = p.error_relative = 0;
   for (int k = 0; k < 3; ++k)
-    p.edges[k] = row_edge(q.edges[k], errors.edges[k], inside, space.width, space.height);
+    std::tie(p.edges[k], p.kinds[k]) =
+        row_edge(q.edges[k], errors.edges[k], inside, space.width, space.height);
   if (std::fabs(q.f) < 4 * errors.f) {  // seen (nearly) edge-on: its nearness is anybody's guess
     p.g = {0, 0, std::numeric_limits<double>::quiet_NaN()};
     return;
@@ -70,8 +77,8 @@ void set_up(Polygon& p, const PolygonEquations<double>& q, const EquationErrors&
   const double least = std::fabs(q.f) - errors.f;
   const double reach =
       std::fabs(p.g.a) * space.width + std::fabs(p.g.b) * space.height + std::fabs(p.g.c);
-  p.error_absolute = errors.n / least * kInflate + kNearnessRoundoff * reach;
-  p.error_relative = errors.f / least * kInflate;
+  p.error_absolute = rounded_up(errors.n / least * kInflate + kNearnessRoundoff * reach);
+  p.error_relative = rounded_up(errors.f / least * kInflate);
   // A cut by nearness is an optimisation: only where it is sharper than the picture is wide.
   if (std::fabs(p.g.a) * space.width > 4 * p.error_absolute) p.inverse_ga = 1 / p.g.a;
 }
@@ -108,8 +115,8 @@ void refine_nearness(Polygon& p, const ScreenPoint<double> (&corners)[3],
   p.g = {a.value, b.value, c.value - (a.value * dx + b.value * dy)};
   const double moved = std::fabs(p.g.a) * (space.width + std::fabs(dx)) +
                        std::fabs(p.g.b) * (space.height + std::fabs(dy)) + std::fabs(c.value);
-  p.error_absolute =
-      (a.error * reach_x + b.error * reach_y + c.error) * kInflate + kNearnessRoundoff * moved;
+  p.error_absolute = rounded_up((a.error * reach_x + b.error * reach_y + c.error) * kInflate +
+                                kNearnessRoundoff * moved);
   p.error_relative = 0;
 }
 
@@ -197,7 +204,7 @@ Span exact_span(const Polygon& p, const ExactPolygon& exact, int row, ExactStats
       }
       return from;
     };
-    if (e.kind == RowEdge::kFlat) {
+    if (p.kinds[k] == EdgeKind::kFlat) {
       const double v = e.x0 + e.k * y;
       if (v > e.slack) continue;
       if (v < -e.slack) return {0, 0};
@@ -215,7 +222,7 @@ Span exact_span(const Polygon& p, const ExactPolygon& exact, int row, ExactStats
       return static_cast<int>(std::clamp(std::floor(v), 0.0, double(width)));
     };
     const int from = pixel(x - e.slack), to = pixel(x + e.slack);
-    if (e.kind == RowEdge::kLower) {
+    if (p.kinds[k] == EdgeKind::kLower) {
       span.begin = std::max(span.begin, change(from, to, false));
     } else {
       span.end = std::min(span.end, change(from, to, true));

@@ -58,27 +58,31 @@ EquationErrors equation_errors(const ScreenPoint<Bound>& p0, const ScreenPoint<B
 
 // Where an edge crosses a row: at x0 + k y (y = row + 1/2), right within +-slack.
 struct RowEdge {
-  enum Kind : std::int32_t {
-    kLower,  // inside to the right of the crossing
-    kUpper,  // inside to the left
-    kFlat,  // no crossing: inside where x0 + k y > slack, outside where < -slack, undecided between
-  };
   double x0 = 0, k = 0, slack = 0;
-  Kind kind = kFlat;
+};
+enum class EdgeKind : std::uint8_t {
+  kLower,  // inside to the right of the crossing
+  kUpper,  // inside to the left
+  kFlat,   // no crossing: inside where x0 + k y > slack, outside where < -slack, undecided between
 };
 
 struct Polygon {
   RowEdge edges[3];
+  EdgeKind kinds[3] = {EdgeKind::kFlat, EdgeKind::kFlat, EdgeKind::kFlat};
+  std::int8_t facing = 0;  // exact sign of |c0; c1; c2; e|, scene coordinates
   // Nearness g.a x + g.b y + g.c; NaN where floating point knows nothing of it.
   Linear<double> g;
-  double inverse_ga = 0;      // 1 / g.a where rows may be cut by nearness; 0 where not
-  double error_absolute = 0;  // |nearness - exact| <= error_absolute + error_relative |nearness|
-  double error_relative = 0;
-  std::int32_t facing = 0;  // exact sign of |c0; c1; c2; e|, scene coordinates
-  std::int32_t add = 0;     // what a sample behind it adds to its count
+  double inverse_ga = 0;  // 1 / g.a where rows may be cut by nearness; 0 where not
+  // |nearness - exact| <= error_absolute + error_relative |nearness|; rounded up to float.
+  float error_absolute = 0;
+  float error_relative = 0;
+  std::int32_t add = 0;  // what a sample behind it adds to its count
   std::int32_t first_row = 0, end_row = 0;
   std::uint32_t id = 0;  // whose it is: index into sides or triangles (the caller's)
 };
+
+// Not below x.
+float rounded_up(double x);
 
 // Fills edges, nearness and facing from the equations. `corners` are read only if the filter cannot
 // tell the facing.

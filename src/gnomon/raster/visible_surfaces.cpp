@@ -84,9 +84,10 @@ Span row_span(const Polygon& p, int row, int width, bool& undecided) {
   const double y = row + kPixelCentre;
   double begin = 0, end = width;
   undecided = false;
-  for (const RowEdge& e : p.edges) {
+  for (int edge = 0; edge < 3; ++edge) {
+    const RowEdge& e = p.edges[edge];
     const double x = e.x0 + e.k * y;
-    if (e.kind == RowEdge::kFlat) {
+    if (p.kinds[edge] == EdgeKind::kFlat) {
       if (x < -e.slack) return {0, 0};
       undecided |= !(x > e.slack);
       continue;
@@ -94,7 +95,7 @@ Span row_span(const Polygon& p, int row, int width, bool& undecided) {
     const double low = std::floor(x + kPixelCentre - e.slack),
                  high = std::floor(x + kPixelCentre + e.slack);
     undecided |= low != high;
-    if (e.kind == RowEdge::kLower) {
+    if (p.kinds[edge] == EdgeKind::kLower) {
       begin = std::max(begin, low);
     } else {
       end = std::min(end, high);
@@ -144,7 +145,7 @@ class Band {
           continue;
         }
       }
-      error_[k] = static_cast<float>(error * (1 + 0x1p-20));  // not below `error` after rounding
+      error_[k] = rounded_up(error);
       nearness_[k] = g;
       polygon_[k] = index;
     }
