@@ -14,17 +14,18 @@
 namespace gnomon {
 
 struct LoadOptions {
-  std::string lod;   // CityJSON level of detail to take; empty: per object the highest it has
-  char up = 0;       // 'y' or 'z': up axis of formats that do not say (OBJ); 0: y for OBJ
-  std::string unit;  // "m", "mm", "cm", "ft", "in" of formats that do not say; empty: m
-  std::optional<double>
-      north;        // radians clockwise from the scene's +y to true north; overrides the CRS
-  std::string crs;  // where the file does not say (a file's own CRS that differs is an error)
-  std::optional<Place> site;    // where there is no CRS; overrides the place (not the coordinates)
+  std::string lod = {};   // CityJSON level of detail to take; empty: per object the highest it has
+  char up = 0;            // 'y' or 'z': up axis of formats that do not say (OBJ); 0: y for OBJ
+  std::string unit = {};  // "m", "mm", "cm", "ft", "in" of formats that do not say; empty: m
+  std::optional<double> north =
+      {};                // radians clockwise from the scene's +y to true north; overrides the CRS
+  std::string crs = {};  // where the file does not say (a file's own CRS that differs is an error)
+  std::optional<Place> site =
+      {};                       // where there is no CRS; overrides the place (not the coordinates)
   std::string ground = "auto";  // see GroundOptions::mode
-  std::optional<Bounds2> ground_extent;  // model CRS coordinates; empty: the model's box and 3
-                                         // times its height around it
-  std::vector<std::string> cast, no_cast, receive;  // globs, see scene/select.h
+  std::optional<Bounds2> ground_extent = {};  // model CRS coordinates; empty: the model's box and 3
+                                              // times its height around it
+  std::vector<std::string> cast = {}, no_cast = {}, receive = {};  // globs, see scene/select.h
 };
 
 // What was read, per file, for inspect and summary.json.

@@ -16,11 +16,12 @@
 namespace gnomon {
 
 struct StudyTimes {
-  std::string date;          // "YYYY-MM-DD"
-  std::string from;          // "HH:MM[:SS]" on the clock of `zone`; empty: sunrise
-  std::string to;            // "HH:MM[:SS]"; "24:00" is the end of the day; empty: sunset
+  std::string date = {};     // "YYYY-MM-DD"
+  std::string from = {};     // "HH:MM[:SS]" on the clock of `zone`; empty: sunrise
+  std::string to = {};       // "HH:MM[:SS]"; "24:00" is the end of the day; empty: sunset
   std::string every = "1h";  // "5min", "1h", "90s", "1h30min"
-  std::string zone;  // IANA name ("Europe/Vienna"), "UTC", or "solar" (true solar time). Required.
+  std::string zone =
+      {};  // IANA name ("Europe/Vienna"), "UTC", or "solar" (true solar time). Required.
 };
 
 // A date of the local calendar.

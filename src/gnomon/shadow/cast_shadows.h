@@ -26,7 +26,7 @@ using Progress = std::function<void(double)>;
 
 struct ShadowOptions {
   int threads = 0;  // 0: all
-  Progress progress;
+  Progress progress = {};
   CountStats* stats = nullptr;
 };
 
