@@ -116,7 +116,6 @@ void run(const Options& o) {
         "time)");
   }
   const bool camera = wants_camera(o.view);
-  const std::filesystem::path folder = take(make_output_folder(o.output));
 
   LoadOptions load = o.models.load;
   if (!load.ground_extent) load.ground_extent = parse_bounds(o.view.bounds);
@@ -164,6 +163,7 @@ void run(const Options& o) {
          "");
   }
 
+  const std::filesystem::path folder = take(make_output_folder(o.output));
   const std::string software = std::string("gnomon ") + GNOMON_VERSION;
   const std::string title = title_of(o), window = window_text(o.time.times, samples, place);
   const std::string steps =

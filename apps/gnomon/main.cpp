@@ -33,7 +33,9 @@ int main(int argc, char** argv) {
   gnomon::app::add_profile(app);
   gnomon::app::add_inspect(app);
   gnomon::app::add_sun(app);
+#ifdef GNOMON_HAVE_TRACE
   gnomon::app::add_verify(app);
+#endif
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

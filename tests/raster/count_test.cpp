@@ -131,6 +131,59 @@ TEST(CountShadows, FastFormEqualsTheSpecificationWhereCastersHideReceivers) {
   }
 }
 
+TEST(CountShadows, FilmThinnerThanFloatAboveTheDeepestReceiverStillShadesIt) {
+  // The receivers' nearness is stored as float, here rounded up past the film's: its sides must not
+  // be cut off for it.
+  TriMesh m;
+  test::add_ground(m, 20, 0.3);
+  test::add_ground(m, 5, 0.30000001);
+  test::add_quad(m, {15, 15, 17.123}, {16, 15, 17.123}, {16, 16, 17.123}, {15, 16, 17.123});
+  Scene s = scene_of(std::move(m));
+  s.surfaces.push_back({});
+  s.surfaces[0].receives = false;
+  s.surfaces[1].casts = false;
+  s.surface_of[0] = s.surface_of[1] = 1;
+  const Receivers r = visible_surfaces(s, plan_view({-20, -20, 20, 20}, 1, 0));
+  const Light light(0.1, 0.2, 1, 0);
+  const auto counts = fast_counts(s, r, light);
+  EXPECT_EQ(counts, count_shadows_reference(prepare_casters(s), r, light));
+  EXPECT_EQ(counts[static_cast<std::size_t>(20 * 40 + 20)], 1);
+}
+
+TEST(CountShadows, LightExactlyOppositeTheEyeIsCountedBeyondThePicture) {
+  // Strips have no direction on the screen; by the tie rule they are endless, so casters outside
+  // the picture count.
+  TriMesh m;
+  test::add_soup(m, 40, 12, 0, 31);
+  test::add_ground(m, 30, -12);
+  const Scene s = scene_of(std::move(m));
+  const View parallel = orthographic_view({3, -4, 5}, {0, 0, 0}, {0, 0, 1}, 6, 24, 24);
+  for (const auto& [view, light] :
+       {std::pair{plan_view({-3, -3, 3, 3}, 0.25, 0), Light(0, 0, -2, 0)},
+        std::pair{parallel, -parallel.eye}, std::pair{parallel, parallel.eye}}) {
+    const Receivers r = visible_surfaces(s, view);
+    const auto counts = fast_counts(s, r, light);
+    EXPECT_EQ(counts, count_shadows_reference(prepare_casters(s), r, light));
+    for (const std::int32_t n : counts) EXPECT_GE(n, 0);
+  }
+}
+
+TEST(CountShadows, CameraStraightDownOnFlatGroundWithTheLightInItsPlane) {
+  TriMesh m;
+  test::add_ground(m, 20, 0.123456789);
+  test::add_soup(m, 20, 6, 0, 32);
+  const Scene s = scene_of(std::move(m));
+  for (const double height : {7.7, 9.123, 21.0}) {
+    const View view = perspective_view({0.3, 0.2, height}, {0.3, 0.2, 0}, {0, 1, 0}, 1, 26, 26);
+    const Receivers r = visible_surfaces(s, view);
+    for (const Light& light :
+         {Light(1, 0.5, 0, 0), Light(9, 4, 0.123456789, 1), Light(0, 0, 1, 0)}) {
+      EXPECT_EQ(fast_counts(s, r, light), count_shadows_reference(prepare_casters(s), r, light))
+          << height;
+    }
+  }
+}
+
 TEST(CountShadows, CountsAreNeverNegative) {
   for (const Case& c : hard_cases()) {
     const Receivers r = visible_surfaces(c.scene, c.view);

@@ -34,6 +34,10 @@ bool is_caster(const Casters& c, std::uint32_t triangle) {
   return c.selected.empty() || c.selected[triangle] != 0;
 }
 
+// Receivers::nearness is wrong by at most 2^-23 of itself or by nearness_floor; twice that share is
+// taken off.
+constexpr double kNearnessRounding = 0x1p-22;
+
 // What all lights share.
 struct ViewSetup {
   ScreenSpace space;
@@ -94,12 +98,17 @@ ViewSetup set_up_view(const Casters& casters, const Receivers& r, std::span<cons
     const std::size_t first = static_cast<std::size_t>(b) * kBandRows * width;
     const std::size_t end = std::min(r.nearness.size(), first + kBandRows * width);
     double least = std::numeric_limits<double>::infinity();
+    // A stored nearness may lie above the exact one by its rounding (Receivers::nearness).
+    const auto below = [&](float n) {
+      return static_cast<double>(n) - std::fabs(static_cast<double>(n)) * kNearnessRounding -
+             r.nearness_floor;
+    };
     for (std::size_t k = first; k < end; ++k) {
       const float n = r.nearness[k];
       if (std::isnan(n)) {
         least = std::min(least, least_of_triangle(casters, v, parallel, r.triangle[k]));
       } else {
-        least = std::min(least, static_cast<double>(n));
+        least = std::min(least, below(n));
       }
     }
     v.band_least[static_cast<std::size_t>(b)] = least;
@@ -137,7 +146,7 @@ std::int32_t count_at_eye(const Casters& casters, const ViewSetup& v, const View
 
 void add_side(LightSetup& s, const ViewSetup& v, const Casters& casters, const View& view,
               const EquationErrors& errors, const ScreenPoint<double>& minus_light,
-              std::uint32_t index) {
+              const ScreenPoint<Bound>& light_bound, std::uint32_t index) {
   const SilhouetteEdge& e = s.silhouette[index];
   const PolygonEquations<double> q =
       polygon_equations(v.screen.points[e.a], v.screen.points[e.b], minus_light);
@@ -145,12 +154,10 @@ void add_side(LightSetup& s, const ViewSetup& v, const Casters& casters, const V
   if (std::fabs(q.f) <= errors.f && seen_end_on(view, a, b)) return;
   Polygon& p = s.polygons.emplace_back();
   set_up(p, q, errors, v.space, view, side_corners(a, b), s.light, s.stats);
-  if (is_parallel(view) && s.light.w == 0) {
-    set_rows_of_strip(p, v.screen.points[e.a], v.screen.points[e.b], minus_light, v.space,
-                      v.least_nearness);
-  } else {
-    set_rows(p, q, errors, v.space, v.least_nearness);
-  }
+  const bool strip = is_parallel(view) && s.light.w == 0 &&
+                     set_rows_of_strip(p, v.screen.points[e.a], v.screen.points[e.b], minus_light,
+                                       v.screen.bound, light_bound, v.space, v.least_nearness);
+  if (!strip) set_rows(p, q, errors, v.space, v.least_nearness);
   p.add = -e.multiplicity * p.facing;
   p.id = index;
   if (p.first_row >= p.end_row) s.polygons.pop_back();
@@ -208,7 +215,7 @@ void set_up_light(LightSetup& s, const Casters& casters, const Receivers& r, con
       equation_errors(v.screen.bound, v.screen.bound, light_bound, r.view.width, r.view.height);
   s.polygons.reserve(s.silhouette.size());
   for (std::uint32_t i = 0; i < s.silhouette.size(); ++i) {
-    add_side(s, v, casters, r.view, errors, minus_light, i);
+    add_side(s, v, casters, r.view, errors, minus_light, light_bound, i);
   }
   s.sides = s.polygons.size();
   if (r.casters_in_front) add_casters(s, v, casters, r.view, sides);

@@ -38,6 +38,9 @@ std::pair<RowEdge, EdgeKind> row_edge(const Linear<double>& line, const Linear<d
   return {e, EdgeKind::kFlat};
 }
 
+// Rows of a strip are widened by one; its corners must be known this well for that to be enough.
+constexpr double kSurePixels = 0.25;
+
 }  // namespace
 
 float rounded_up(double x) {
@@ -68,7 +71,7 @@ void set_up(Polygon& p, const PolygonEquations<double>& q, const EquationErrors&
   for (int k = 0; k < 3; ++k)
     std::tie(p.edges[k], p.kinds[k]) =
         row_edge(q.edges[k], errors.edges[k], inside, space.width, space.height);
-  if (std::fabs(q.f) < 4 * errors.f) {  // seen (nearly) edge-on: its nearness is anybody's guess
+  if (std::fabs(q.f) <= 4 * errors.f) {  // seen (nearly) edge-on: its nearness is anybody's guess
     p.g = {0, 0, std::numeric_limits<double>::quiet_NaN()};
     return;
   }
@@ -155,21 +158,37 @@ void set_rows(Polygon& p, const PolygonEquations<double>& q, const EquationError
   p.end_row = n == 0 ? 0 : std::min(space.height, static_cast<int>(std::ceil(high)) + 1);
 }
 
-void set_rows_of_strip(Polygon& p, const ScreenPoint<double>& a, const ScreenPoint<double>& b,
-                       const ScreenPoint<double>& behind, const ScreenSpace& space, double least) {
-  const double margin =
-      p.error_absolute * 2 + (p.error_relative + kNearnessRoundoff) * 2 * std::fabs(least);
+bool set_rows_of_strip(Polygon& p, const ScreenPoint<double>& a, const ScreenPoint<double>& b,
+                       const ScreenPoint<double>& behind, const ScreenPoint<Bound>& point_bound,
+                       const ScreenPoint<Bound>& light_bound, const ScreenSpace& space,
+                       double least) {
+  if (std::isnan(p.g.c)) return false;
+  const double margin = p.error_absolute * 2 +
+                        (p.error_relative + kNearnessRoundoff) * 2 * std::fabs(least) +
+                        2 * point_bound.z.error;
   constexpr double kForever = std::numeric_limits<double>::infinity();
   double low_x = kForever, high_x = -kForever, low_y = kForever, high_y = -kForever;
   bool reaches = false;
+  const double sinks = -behind.z - light_bound.z.error;  // at least, per length of `behind`
   for (const ScreenPoint<double>* corner : {&a, &b}) {
     // How far the strip runs, in lengths of `behind`, before it is too deep to matter.
-    const double length = behind.z < 0 ? (corner->z - least + margin) / -behind.z : kForever;
+    const double length = sinks > 0 ? (corner->z - least + margin) / sinks : kForever;
     reaches = reaches || length >= 0;
-    const auto far_end = [&](double from, double step) {
-      return step == 0 ? from : from + std::max(length, 0.0) * step;
+    const double run = std::max(length, 0.0);
+    const auto far_end = [&](double from, double step, double error) {
+      const double reach = std::fabs(step) + error;
+      return reach == 0 ? from : from + std::copysign(run * reach, step);
     };
-    const double x = far_end(corner->x, behind.x), y = far_end(corner->y, behind.y);
+    const double x = far_end(corner->x, behind.x, light_bound.x.error);
+    const double y = far_end(corner->y, behind.y, light_bound.y.error);
+    // The margin of one row below pays for errors of the corners and for a step whose sign is not
+    // known.
+    const double unsure =
+        std::max(point_bound.x.error, point_bound.y.error) +
+        (std::isfinite(run) ? run : 0.0) * std::max(light_bound.x.error, light_bound.y.error);
+    const bool sure_direction = std::isfinite(run) || (std::fabs(behind.x) > light_bound.x.error &&
+                                                       std::fabs(behind.y) > light_bound.y.error);
+    if (!(unsure < kSurePixels) || !sure_direction) return false;
     low_x = std::min({low_x, corner->x, x});
     high_x = std::max({high_x, corner->x, x});
     low_y = std::min({low_y, corner->y, y});
@@ -177,9 +196,10 @@ void set_rows_of_strip(Polygon& p, const ScreenPoint<double>& a, const ScreenPoi
   }
   p.first_row = p.end_row = 0;
   if (!reaches || high_x < -1 || low_x > space.width + 1 || high_y < -1 || low_y > space.height + 1)
-    return;
+    return true;
   p.first_row = static_cast<int>(std::max(0.0, std::floor(low_y) - 1));
   p.end_row = static_cast<int>(std::min<double>(space.height, std::ceil(high_y) + 1));
+  return true;
 }
 
 Span exact_span(const Polygon& p, const ExactPolygon& exact, int row, ExactStats& stats) {

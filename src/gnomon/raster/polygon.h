@@ -103,9 +103,13 @@ void set_rows(Polygon& p, const PolygonEquations<double>& q, const EquationError
               const ScreenSpace& space, double least);
 
 // The same for the side over the edge a b in a parallel view with a light at infinity: a strip from
-// the edge along `behind` (minus the light), which ends where it is deeper than `least`.
-void set_rows_of_strip(Polygon& p, const ScreenPoint<double>& a, const ScreenPoint<double>& b,
-                       const ScreenPoint<double>& behind, const ScreenSpace& space, double least);
+// the edge along `behind` (minus the light), which ends where it is deeper than `least`. False, and
+// nothing set, where the strip is seen too nearly edge-on or its corners are known too badly: then
+// set_rows() has to be asked.
+bool set_rows_of_strip(Polygon& p, const ScreenPoint<double>& a, const ScreenPoint<double>& b,
+                       const ScreenPoint<double>& behind, const ScreenPoint<Bound>& point_bound,
+                       const ScreenPoint<Bound>& light_bound, const ScreenSpace& space,
+                       double least);
 
 struct Span {
   int begin = 0, end = 0;  // pixels of a row: [begin, end)
