@@ -12,6 +12,7 @@
 #include <gnomon/io/write_geotiff.h>
 #include <gnomon/shadow/cast_shadows.h>
 #include <gnomon/sun/time_zone.h>
+#include <unistd.h>
 
 #include "commands.h"
 #include "model_options.h"
@@ -55,6 +56,51 @@ class Stopwatch {
   }
   Timings& timings_;
   Clock::time_point begin_ = Clock::now(), last_ = begin_;
+};
+
+// Results are made in a folder of their own inside the output folder and moved out of it together
+// at the end: a run that fails leaves the files of the run before it as they were.
+class Staging {
+ public:
+  explicit Staging(const std::filesystem::path& output)
+      : output_(take(make_output_folder(output))),
+        folder_(output_ / fmt::format("unfinished-{}.tmp", getpid())) {
+    take(make_output_folder(folder_));
+  }
+  ~Staging() {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
+  }
+  Staging(const Staging&) = delete;
+  Staging& operator=(const Staging&) = delete;
+
+  std::filesystem::path path(const char* name) {
+    names_.emplace_back(name);
+    return folder_ / name;
+  }
+  const std::vector<std::string>& names() const { return names_; }
+  const std::filesystem::path& output() const { return output_; }
+
+  // Also removes the other kind of map that an earlier run may have left: it would belong to other
+  // results.
+  void publish() {
+    for (const std::string& name : names_) {
+      std::error_code error;
+      std::filesystem::rename(folder_ / name, output_ / name, error);
+      if (error)
+        throw Failure(fmt::format("cannot move {} into place: {}", (output_ / name).string(),
+                                  error.message()));
+    }
+    for (const char* map : {"plan.png", "hours.png"}) {
+      std::error_code ignored;
+      if (std::find(names_.begin(), names_.end(), map) == names_.end())
+        std::filesystem::remove(output_ / map, ignored);
+    }
+  }
+
+ private:
+  std::filesystem::path output_, folder_;
+  std::vector<std::string> names_;
 };
 
 std::string title_of(const Options& o) {
@@ -156,6 +202,8 @@ void run(const Options& o) {
                     window_text(o.time.times, samples, place)));
   }
   Warnings warnings = scene.warnings;
+  if (casters.edges.vertices.empty())
+    warn(warnings, "nothing casts a shadow: check --cast and --no-cast", "");
   append(warnings, samples.warnings);
   if (std::find(profile.valid.begin(), profile.valid.end(), 1) == profile.valid.end()) {
     warn(warnings,
@@ -163,17 +211,15 @@ void run(const Options& o) {
          "");
   }
 
-  const std::filesystem::path folder = take(make_output_folder(o.output));
   const std::string software = std::string("gnomon ") + GNOMON_VERSION;
   const std::string title = title_of(o), window = window_text(o.time.times, samples, place);
   const std::string steps =
       fmt::format("{} steps of {}", samples.midpoints.size(), o.time.times.every);
-  std::vector<std::string> outputs;
-  take(write_profile_geotiff(folder / "profile.tif", profile, view, scene.frame,
+  Staging staging(o.output);
+  take(write_profile_geotiff(staging.path("profile.tif"), profile, view, scene.frame,
                              {{"TIFFTAG_SOFTWARE", software},
                               {"TIFFTAG_IMAGEDESCRIPTION", title + ", " + window + ", " + steps}},
                              {.threads = o.common.threads}));
-  outputs.push_back("profile.tif");
   watch.stage("profile.tif");
 
   PlanCaption plan_caption;
@@ -183,9 +229,8 @@ void run(const Options& o) {
   plan_caption.attribution = o.attribution;
   const char* map_name = camera ? "hours.png" : "plan.png";
   const PlanRelief relief = camera ? PlanRelief{} : plan_relief(scene, receivers, o.common.threads);
-  take(write_plan_picture(folder / map_name, profile, view, scene.frame, plan_caption, relief,
+  take(write_plan_picture(staging.path(map_name), profile, view, scene.frame, plan_caption, relief,
                           o.common.threads));
-  outputs.push_back(map_name);
   watch.stage(map_name);
 
   ViewSamples picture;
@@ -214,11 +259,10 @@ void run(const Options& o) {
   view_caption.lines = {window, fmt::format("{} shadows laid over each other", picture.instants)};
   view_caption.software = software;
   view_caption.attribution = o.attribution;
-  take(write_view_picture(folder / "view.png", picture, view_caption, o.common.threads));
-  outputs.push_back("view.png");
+  take(write_view_picture(staging.path("view.png"), picture, view_caption, o.common.threads));
   watch.stage("view.png");
 
-  outputs.push_back("summary.json");
+  const std::filesystem::path summary_path = staging.path("summary.json");
   timings.emplace_back("total", watch.total());
   const Summary summary{o.models,
                         o.time.times,
@@ -229,10 +273,11 @@ void run(const Options& o) {
                         stats,
                         visibility,
                         timings,
-                        outputs,
+                        staging.names(),
                         o.common.threads,
                         static_cast<std::size_t>(picture.instants)};
-  take(write_text_file(folder / "summary.json", summary_json(summary, warnings)));
+  take(write_text_file(summary_path, summary_json(summary, warnings)));
+  staging.publish();
 
   if (o.common.quiet) return;
   print_warnings(warnings);
@@ -240,7 +285,8 @@ void run(const Options& o) {
              profile.daylight_ms / 3.6e6);
   fmt::print("{} x {} samples over {} triangles in {:.2f} s\n", view.width, view.height,
              scene.mesh.triangles.size(), watch.total() / 1000);
-  for (const std::string& name : outputs) fmt::print("  {}\n", (folder / name).string());
+  for (const std::string& name : staging.names())
+    fmt::print("  {}\n", (staging.output() / name).string());
 }
 
 }  // namespace

@@ -90,9 +90,9 @@ NamedLight parse_light(const std::string& text) {
     if (used != part.size() || !std::isfinite(v[k]) || std::fabs(v[k]) > kLargestCoordinate)
       throw wrong();
   }
-  if (!is_point && v == Vec3(0.0))
-    throw Failure("--light " + text + ": a direction must not be zero");
-  return {text, snapped(is_point ? point(v) : direction(v))};
+  const Light light = snapped(is_point ? point(v) : direction(v));
+  if (light == Light(0.0)) throw Failure("--light " + text + ": a direction must not be zero");
+  return {text, light};
 }
 
 std::vector<NamedView> views_of(const VerifyOptions& o, const Oracle& oracle,

@@ -1,3 +1,4 @@
+#include <csignal>
 #include <cstdio>
 #include <exception>
 
@@ -36,6 +37,7 @@ int main(int argc, char** argv) {
 #ifdef GNOMON_HAVE_TRACE
   gnomon::app::add_verify(app);
 #endif
+  std::signal(SIGXFSZ, SIG_IGN);  // a file size limit is then an error of the write, with a message
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

@@ -180,7 +180,8 @@ std::string summary_json(const Summary& s, const Warnings& warnings) {
         {{"what", w.what}, {"count", w.count}, {"first", text_or_null(w.first)}});
   }
   json["outputs"] = s.outputs;
-  return json.dump(2) + "\n";
+  // File names need not be UTF-8; JSON must be.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace gnomon::app

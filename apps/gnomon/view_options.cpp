@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <gnomon/core/exact.h>
 #include <unistd.h>
 #include <glm/geometric.hpp>
 
@@ -68,9 +69,34 @@ void check_memory(double width, double height, const char* advice) {
   const double needed = width * height * kBytesPerSample;
   if (needed > memory || width * height > 2e9) {
     throw Failure(
-        fmt::format("a picture of {:.0f} x {:.0f} samples needs about {:.1f} GB of memory, this "
+        fmt::format("a picture of {:.6g} x {:.6g} samples needs about {:.3g} GB of memory, this "
                     "machine has {:.1f} GB: {}",
                     width, height, needed / 1e9, memory / 1e9, advice));
+  }
+}
+
+// A number that CLI11 lets through may still make no view: NaN, or rays that no exact arithmetic
+// takes.
+View checked(const View& v, const char* options) {
+  for (const Vec4* a : {&v.eye, &v.origin, &v.right, &v.down}) {
+    for (int k = 0; k < 4; ++k) {
+      if (!(std::fabs((*a)[k]) <= kLargestCoordinate)) {
+        throw Failure(
+            fmt::format("{} give a view that cannot be computed: it reaches beyond {:g} m", options,
+                        kLargestCoordinate));
+      }
+    }
+  }
+  if (v.right == Vec4(0.0) || v.down == Vec4(0.0)) {
+    throw Failure(
+        fmt::format("{} give a view that cannot be computed: its pixels have no size", options));
+  }
+  return v;
+}
+
+void check_positive(double value, const char* option) {
+  if (std::isnan(value) || std::isinf(value) || value < 0) {
+    throw Failure(fmt::format("{} must be a positive number", option));
   }
 }
 
@@ -135,6 +161,9 @@ std::optional<Bounds2> parse_bounds(const std::string& text) {
 }
 
 bool wants_camera(const ViewOptions& o) {
+  check_positive(o.pixel, "--pixel");
+  check_positive(o.fov_deg, "--fov");
+  check_positive(o.ortho_height, "--ortho");
   const bool camera_options = !o.eye.empty() || !o.target.empty() || o.ortho_height > 0;
   const bool plan_options = o.pixel > 0 || !o.bounds.empty();
   if (o.kind == "plan" && camera_options)
@@ -181,7 +210,7 @@ View make_plan(const Scene& scene, const ViewOptions& o) {
   }
   check_memory((b.x1 - b.x0) / pixel, (b.y1 - b.y0) / pixel,
                "give a larger --pixel or smaller --bounds");
-  return plan_view(b, pixel, box.lo.z);
+  return checked(plan_view(b, pixel, box.lo.z), "--pixel and --bounds");
 }
 
 View make_camera(const Scene& scene, const ViewOptions& o, double sun_azimuth, int supersample) {
@@ -218,8 +247,11 @@ View make_camera(const Scene& scene, const ViewOptions& o, double sun_azimuth, i
   const Vec3 up = std::hypot(forward.x, forward.y) < 1e-6
                       ? Vec3(0, 1, 0)
                       : Vec3(0, 0, 1);  // straight down: north is up
-  if (o.ortho_height > 0) return orthographic_view(eye, target, up, o.ortho_height, width, height);
-  return perspective_view(eye, target, up, fov, width, height);
+  if (o.ortho_height > 0) {
+    return checked(orthographic_view(eye, target, up, o.ortho_height, width, height),
+                   "--eye, --target and --ortho");
+  }
+  return checked(perspective_view(eye, target, up, fov, width, height), "--eye and --target");
 }
 
 }  // namespace gnomon::app

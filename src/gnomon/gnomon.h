@@ -11,6 +11,7 @@
 #include <gnomon/shadow/cast_shadows.h>
 #include <gnomon/sun/sun.h>
 #include <gnomon/view/view.h>
+#include <gnomon/volume/shadow_volume.h>
 
 #ifdef GNOMON_HAVE_IO
 #include <gnomon/io/load_scene.h>

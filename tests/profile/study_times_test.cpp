@@ -178,6 +178,13 @@ TEST(StudyTimes, RefuseATimeThatTheClockSkipsAndTakeTheEarlierOfTwo) {
   EXPECT_TRUE(warns(midnight, "skips this midnight"));
 }
 
+TEST(StudyTimes, HoursMayBeWrittenWithOneDigit) {
+  const Place vienna{48.2 * kDegree, 16.37 * kDegree, 171};
+  const auto one = study_samples({"2024-09-18", "9:00", "17:00", "1h", "UTC"}, vienna, 0).value();
+  const auto two = study_samples({"2024-09-18", "09:00", "17:00", "1h", "UTC"}, vienna, 0).value();
+  EXPECT_EQ(one.begin, two.begin);
+}
+
 TEST(StudyTimes, SayWhatIsMissingOrUnreadable) {
   EXPECT_TRUE(
       contains(error(times("2024-09-18", "09:00", "17:00", "1h", "")), "--tz Europe/Vienna"));
@@ -187,7 +194,7 @@ TEST(StudyTimes, SayWhatIsMissingOrUnreadable) {
     EXPECT_TRUE(
         contains(error(times(date, "09:00", "17:00", "1h", "UTC")), std::string("'") + date + "'"));
   for (const char* time :
-       {"9:00", "09", "09:60", "24:01", "09:00:60", "09:00 ", "-9:00", "+9:00", "noon"}) {
+       {"9", "09", "09:60", "24:01", "09:00:60", "09:00 ", "-9:00", "+9:00", "noon"}) {
     EXPECT_TRUE(contains(error(times("2024-09-18", time, "24:00", "1h", "UTC")),
                          std::string("--from '") + time + "'"));
     EXPECT_TRUE(contains(error(times("2024-09-18", "00:00", time, "1h", "UTC")),

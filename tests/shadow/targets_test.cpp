@@ -14,6 +14,8 @@ namespace gnomon {
 namespace {
 
 TEST(InstructionSets, CountsAreTheSameBitsOnEachThatTheMachineOffers) {
+  const auto offered = hwy::SupportedAndGeneratedTargets();
+  if (offered.size() < 2) GTEST_SKIP() << "skipped: this machine offers one instruction set only";
   TriMesh m;
   test::add_soup(m, 400, 20, 0, 21);
   test::add_soup(m, 200, 20, 1, 22);
@@ -25,16 +27,13 @@ TEST(InstructionSets, CountsAreTheSameBitsOnEachThatTheMachineOffers) {
                            perspective_view({33, -35, 20}, {0, 0, -5}, {0, 0, 1}, 0.9, 160, 120)}) {
     const Receivers r = visible_surfaces(scene, view);
     std::vector<std::uint32_t> first;
-    int targets = 0;
-    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    for (const std::int64_t target : offered) {
       hwy::SetSupportedTargetsForTest(target);
       const std::vector<std::uint32_t> counts = count_shaded(casters, r, lights);
       if (first.empty()) first = counts;
       EXPECT_EQ(counts, first) << instruction_set();
-      ++targets;
     }
     hwy::SetSupportedTargetsForTest(0);
-    EXPECT_GE(targets, 1);
   }
 }
 

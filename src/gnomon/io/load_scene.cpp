@@ -320,6 +320,16 @@ Result<LoadedScene> load_scene(const std::vector<std::filesystem::path>& paths,
   auto ground = add_ground(scene, {options.ground, ground_extent(scene, options)});
   if (!ground) return ground.error();
   loaded.ground = std::move(ground).value();
+  for (const Vec3& v : scene.mesh.positions) {
+    if (!(std::fabs(v.x) <= kLargestCoordinate && std::fabs(v.y) <= kLargestCoordinate &&
+          std::fabs(v.z) <= kLargestCoordinate)) {
+      return Error{
+          fmt::format("--ground {}: the ground would reach beyond {:g} m; give a height in metres "
+                      "of the model's "
+                      "coordinates, and bounds near the model",
+                      options.ground, kLargestCoordinate)};
+    }
+  }
   if (loaded.ground.triangles > 0) loaded.zero_area_triangles += weld_scene(scene);
 
   const Selection selection{options.cast, options.no_cast, options.receive};

@@ -60,7 +60,9 @@ std::optional<year_month_day> read_date(std::string_view text) {
 
 // Time since the clock's midnight, up to 24:00.
 std::optional<milliseconds> read_clock(std::string_view text) {
-  const auto hour = take_number(text, 2);
+  // "9:00" is what people write.
+  const std::size_t digits = text.size() > 1 && text[1] == ':' ? 1 : 2;
+  const auto hour = take_number(text, digits);
   if (!hour || !take(text, ":")) return {};
   const auto minute = take_number(text, 2);
   if (!minute || *minute > 59) return {};
