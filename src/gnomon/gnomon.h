@@ -1,4 +1,5 @@
-// Everything that users of the library usually need; io (load_scene, write_*) is included where it is built.
+// Everything that users of the library usually need; io (load_scene, write_*) is included where it
+// is built.
 #pragma once
 
 #include <gnomon/core/exact.h>

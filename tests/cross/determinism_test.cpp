@@ -29,7 +29,8 @@ TEST(Determinism, MasksOfAGeneratedTownHaveThisHashForAnyNumberOfThreads) {
   const std::vector<Light> lights = {
       {0.5, -0.5, 0.25, 0}, {-0.75, 0.125, 0.5, 0}, {1, 1, 2, 0}, {0, -1, 0.0625, 0}};
   for (const int threads : {1, 2, 7}) {
-    EXPECT_EQ(hash_of(count_shaded(casters, r, lights, {threads, {}, nullptr})), 8013510332369242061u);
+    EXPECT_EQ(hash_of(count_shaded(casters, r, lights, {threads, {}, nullptr})),
+              8013510332369242061u);
   }
 }
 

@@ -1,8 +1,9 @@
 // Floating-point numbers that know how wrong they are.
 //
-// Approx carries a value and a bound on its distance from the exact value: a filter that is right by construction, without
-// hand-derived constants. Bound carries only a bound on the magnitude and on the error: the same formula, evaluated once over the
-// largest inputs, bounds the error of every evaluation in plain double.
+// Approx carries a value and a bound on its distance from the exact value: a filter that is right
+// by construction, without hand-derived constants. Bound carries only a bound on the magnitude and
+// on the error: the same formula, evaluated once over the largest inputs, bounds the error of every
+// evaluation in plain double.
 #pragma once
 
 #include <cmath>
@@ -10,7 +11,8 @@
 namespace gnomon {
 
 inline constexpr double kUnitRoundoff = 0x1p-53;  // of double, round to nearest
-// Each operation on error terms rounds as well, by at most a few units; one factor per operation pays for all of them.
+// Each operation on error terms rounds as well, by at most a few units; one factor per operation
+// pays for all of them.
 inline constexpr double kInflate = 1.0 + 0x1p-48;
 // Below this a product of factors may have lost bits to underflow; such values count as undecided.
 inline constexpr double kUnderflowGuard = 1e-280;
@@ -46,7 +48,8 @@ inline Approx operator*(const Approx& a, const Approx& b) {
 inline Approx operator/(const Approx& a, const Approx& b) {
   const double v = a.value / b.value;
   const double least = std::fabs(b.value) - b.error;
-  return {v, ((a.error + std::fabs(v) * b.error) / least + std::fabs(v) * kUnitRoundoff) * kInflate};
+  return {v,
+          ((a.error + std::fabs(v) * b.error) / least + std::fabs(v) * kUnitRoundoff) * kInflate};
 }
 
 struct Bound {
@@ -66,8 +69,9 @@ inline Bound operator-(const Bound& a, const Bound& b) { return a + b; }
 inline Bound operator-(const Bound& a) { return a; }
 inline Bound operator*(const Bound& a, const Bound& b) {
   const double m = a.magnitude * b.magnitude * kInflate;
-  return {m, (a.magnitude * b.error + a.error * b.magnitude + a.error * b.error + m * kUnitRoundoff) *
-                 kInflate};
+  return {m,
+          (a.magnitude * b.error + a.error * b.magnitude + a.error * b.error + m * kUnitRoundoff) *
+              kInflate};
 }
 
 }  // namespace gnomon

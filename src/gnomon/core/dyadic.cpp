@@ -37,7 +37,8 @@ Dyadic& Dyadic::operator=(const Dyadic& other) {
   sign_ = other.sign_;
   exponent_ = other.exponent_;
   size_ = other.size_;
-  if (this != &other) std::memcpy(words_, other.words_, sizeof(words_[0]) * static_cast<unsigned>(size_));
+  if (this != &other)
+    std::memcpy(words_, other.words_, sizeof(words_[0]) * static_cast<unsigned>(size_));
   return *this;
 }
 

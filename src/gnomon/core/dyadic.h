@@ -1,5 +1,6 @@
-// Exact numbers m * 2^(64 e) with a long integer m: closed under addition and multiplication, no rounding ever.
-// Used only where a floating filter could not decide (see exact.h), so it is simple rather than fast.
+// Exact numbers m * 2^(64 e) with a long integer m: closed under addition and multiplication, no
+// rounding ever. Used only where a floating filter could not decide (see exact.h), so it is simple
+// rather than fast.
 #pragma once
 
 #include <cstdint>
@@ -26,8 +27,9 @@ class Dyadic {
   Dyadic& operator=(const Dyadic& other);
 
  private:
-  // Largest product in any predicate: 8 coordinates and a pixel point, each within 2^-152 .. 2^41 (kSmallestCoordinate,
-  // kLargestCoordinate in exact.h), so at most 4 words each and 6 for the pixel point: 38 words, and a few for carries.
+  // Largest product in any predicate: 8 coordinates and a pixel point, each within 2^-152 .. 2^41
+  // (kSmallestCoordinate, kLargestCoordinate in exact.h), so at most 4 words each and 6 for the
+  // pixel point: 38 words, and a few for carries.
   static constexpr int kCapacity = 48;
 
   static Dyadic add(const Dyadic& a, const Dyadic& b, int b_sign);

@@ -1,10 +1,13 @@
-// Exact signs of determinants of homogeneous points, with one tie rule. See DEFINITIONS (docs/exactness.md).
+// Exact signs of determinants of homogeneous points, with one tie rule. See DEFINITIONS
+// (docs/exactness.md).
 //
-// Every geometric decision is the sign of a polynomial that is linear in each of the eye e, the pixel point q and the light L.
-// It is evaluated in Approx first and, where that cannot decide, in Dyadic. If it is exactly zero, the inputs count as moved by
-// infinitesimals in one fixed order: the pixel centre by (d, d^2) pixels, the light by (t, t^2, t^3) along x, y, z, the eye by
-// (s, s^2, s^3) along x, y, z, with s << t << d. Because of the linearity, the coefficient of each infinitesimal is the same
-// polynomial with e, q or L replaced by an axis vector; the first that is not zero decides.
+// Every geometric decision is the sign of a polynomial that is linear in each of the eye e, the
+// pixel point q and the light L. It is evaluated in Approx first and, where that cannot decide, in
+// Dyadic. If it is exactly zero, the inputs count as moved by infinitesimals in one fixed order:
+// the pixel centre by (d, d^2) pixels, the light by (t, t^2, t^3) along x, y, z, the eye by (s,
+// s^2, s^3) along x, y, z, with s << t << d. Because of the linearity, the coefficient of each
+// infinitesimal is the same polynomial with e, q or L replaced by an axis vector; the first that is
+// not zero decides.
 #pragma once
 
 #include <cmath>
@@ -16,12 +19,15 @@
 
 namespace gnomon {
 
-// Coordinates that exact arithmetic takes: 0, or between these in magnitude. Storing code snaps smaller ones to 0 and refuses larger.
+// Coordinates that exact arithmetic takes: 0, or between these in magnitude. Storing code snaps
+// smaller ones to 0 and refuses larger.
 inline constexpr double kSmallestCoordinate = 0x1p-100;  // metres; far below an atom
 inline constexpr double kLargestCoordinate = 1e12;       // metres; beyond Saturn
 
 inline double snapped(double c) { return std::fabs(c) < kSmallestCoordinate ? 0.0 : c; }
-inline Vec4 snapped(const Vec4& v) { return {snapped(v.x), snapped(v.y), snapped(v.z), snapped(v.w)}; }
+inline Vec4 snapped(const Vec4& v) {
+  return {snapped(v.x), snapped(v.y), snapped(v.z), snapped(v.w)};
+}
 
 // How often a filter was not enough, and how often the exact value was zero.
 struct ExactStats {
@@ -64,7 +70,8 @@ struct Depends {
   bool eye = false, light = false, pixel = false;
 };
 
-// Replaces eye or light by its k-th infinitesimal's coefficient: k = 0 the value itself, 1..3 the axes x, y, z.
+// Replaces eye or light by its k-th infinitesimal's coefficient: k = 0 the value itself, 1..3 the
+// axes x, y, z.
 inline Vec4 order_of(const Vec4& value, int k) {
   if (k == 0) return value;
   Vec4 axis(0, 0, 0, 0);
@@ -72,8 +79,9 @@ inline Vec4 order_of(const Vec4& value, int k) {
   return axis;
 }
 
-// Sign of a polynomial under the tie rule. f.operator()<T>(eye_order, light_order, pixel_order) returns its value in T with the
-// inputs replaced as above (pixel_order 1: the step to the right, 2: the step down). Returns 0 only if it vanishes identically.
+// Sign of a polynomial under the tie rule. f.operator()<T>(eye_order, light_order, pixel_order)
+// returns its value in T with the inputs replaced as above (pixel_order 1: the step to the right,
+// 2: the step down). Returns 0 only if it vanishes identically.
 template <class F>
 int tie_sign(const Depends& on, ExactStats& stats, const F& f) {
   for (int e = 0; e <= (on.eye ? 3 : 0); ++e) {
@@ -91,7 +99,8 @@ int tie_sign(const Depends& on, ExactStats& stats, const F& f) {
   return 0;
 }
 
-// Sign of |a; b; c; light|: on which side of the plane through a, b, c the light is. Never 0 for a triangle with area.
+// Sign of |a; b; c; light|: on which side of the plane through a, b, c the light is. Never 0 for a
+// triangle with area.
 int light_side(const Vec3& a, const Vec3& b, const Vec3& c, const Light& light, ExactStats& stats);
 
 // True if the triangle has no area (exactly).

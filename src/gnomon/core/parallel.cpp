@@ -17,9 +17,13 @@ void parallel_for(int n, int threads, const std::function<void(int)>& body) {
     return;
   }
   // More threads than cores are allowed when asked for (results must not depend on it).
-  tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(threads));
+  tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                            static_cast<size_t>(threads));
   tbb::task_arena arena(threads);
-  arena.execute([&] { tbb::parallel_for(0, n, [&](int i) { body(i); }, tbb::simple_partitioner()); });
+  arena.execute([&] {
+    tbb::parallel_for(
+        0, n, [&](int i) { body(i); }, tbb::simple_partitioner());
+  });
 }
 #else
 void parallel_for(int n, int, const std::function<void(int)>& body) {

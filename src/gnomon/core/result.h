@@ -8,7 +8,8 @@
 
 namespace gnomon {
 
-// What happened, to which file and element, and what to do: one sentence that can be shown to a user as it is.
+// What happened, to which file and element, and what to do: one sentence that can be shown to a
+// user as it is.
 struct Error {
   std::string message;
 };

@@ -8,8 +8,8 @@
 
 namespace gnomon {
 
-// One kind of thing that happened `count` times. `what` is a whole sentence without the element, `first` names the
-// first element (file, object, face) it happened to; may be empty.
+// One kind of thing that happened `count` times. `what` is a whole sentence without the element,
+// `first` names the first element (file, object, face) it happened to; may be empty.
 struct Warning {
   std::string what;
   std::size_t count = 0;
@@ -18,8 +18,10 @@ struct Warning {
 
 using Warnings = std::vector<Warning>;
 
-// Adds `count` cases of `what`, merged with earlier cases of the same sentence. Nothing happens for count 0.
-inline void warn(Warnings& warnings, std::string_view what, std::string_view element, std::size_t count = 1) {
+// Adds `count` cases of `what`, merged with earlier cases of the same sentence. Nothing happens for
+// count 0.
+inline void warn(Warnings& warnings, std::string_view what, std::string_view element,
+                 std::size_t count = 1) {
   if (count == 0) return;
   for (Warning& w : warnings) {
     if (w.what == what) {

@@ -5,7 +5,8 @@
 namespace gnomon {
 
 EdgeTable build_edge_table(const TriMesh& mesh, const std::vector<std::uint8_t>& selected) {
-  // Half-edges counted into buckets by their smaller vertex, then sorted inside the (small) buckets.
+  // Half-edges counted into buckets by their smaller vertex, then sorted inside the (small)
+  // buckets.
   struct Half {
     std::uint32_t high, incidence;
   };

@@ -1,4 +1,5 @@
-// Triangles over shared vertices: any soup is allowed (open, non-manifold, mis-wound, self-intersecting).
+// Triangles over shared vertices: any soup is allowed (open, non-manifold, mis-wound,
+// self-intersecting).
 #pragma once
 
 #include <array>

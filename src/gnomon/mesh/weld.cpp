@@ -24,14 +24,15 @@ WeldReport weld(TriMesh& mesh, std::vector<std::uint32_t>& per_triangle) {
   WeldReport report;
   for (Vec3& p : mesh.positions) {
     for (int k = 0; k < 3; ++k) {
-      const double s = snapped(p[k]) + 0.0;  // + 0.0 turns -0 into 0, so that equal coordinates have equal bits
+      const double s =
+          snapped(p[k]) + 0.0;  // + 0.0 turns -0 into 0, so that equal coordinates have equal bits
       if (s != p[k]) ++report.snapped_coordinates;
       p[k] = s;
     }
   }
 
-  // Open addressing over the first vertex with each position; new indices in order of first use, so that the result does
-  // not depend on unused vertices.
+  // Open addressing over the first vertex with each position; new indices in order of first use, so
+  // that the result does not depend on unused vertices.
   constexpr std::uint32_t kFree = 0xffffffffu;
   const std::size_t n = mesh.positions.size();
   const std::size_t slots = std::bit_ceil(std::max<std::size_t>(16, 2 * n));
@@ -41,7 +42,8 @@ WeldReport weld(TriMesh& mesh, std::vector<std::uint32_t>& per_triangle) {
   const auto rename = [&](std::uint32_t v) {
     if (renamed[v] != kFree) return renamed[v];
     std::size_t slot = hash(mesh.positions[v]) & (slots - 1);
-    while (table[slot] != kFree && kept[table[slot]] != mesh.positions[v]) slot = (slot + 1) & (slots - 1);
+    while (table[slot] != kFree && kept[table[slot]] != mesh.positions[v])
+      slot = (slot + 1) & (slots - 1);
     if (table[slot] == kFree) {
       table[slot] = static_cast<std::uint32_t>(kept.size());
       kept.push_back(mesh.positions[v]);

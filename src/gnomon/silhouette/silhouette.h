@@ -1,6 +1,6 @@
 // The silhouette of any triangle soup: the edges whose multiplicity is not zero.
-// Based on: Kim et al., Shadow volumes of arbitrary polygon soups, 2007; TECHNIQUES section 1. Brute force over all edges is the
-// specification ("Geometry of shadows in real time", section 4).
+// Based on: Kim et al., Shadow volumes of arbitrary polygon soups, 2007; TECHNIQUES section 1.
+// Brute force over all edges is the specification ("Geometry of shadows in real time", section 4).
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,9 @@
 
 namespace gnomon {
 
-// Edge (a,b), a < b, with the sum over its incident triangles of (light side) x (+1 where the triangle runs a -> b, else -1).
-// 0 inside lit or unlit regions of a consistently wound surface, +-2 on its contour, +-1 on a border.
+// Edge (a,b), a < b, with the sum over its incident triangles of (light side) x (+1 where the
+// triangle runs a -> b, else -1). 0 inside lit or unlit regions of a consistently wound surface,
+// +-2 on its contour, +-1 on a border.
 struct SilhouetteEdge {
   std::uint32_t a, b;  // vertices of the mesh
   std::int32_t multiplicity;
