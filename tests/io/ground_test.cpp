@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <glm/geometric.hpp>
 
 #include <gnomon/io/footprints.h>
 
@@ -205,7 +206,7 @@ TEST(Ground, IsLevelBeyondTheModel) {
     EXPECT_DOUBLE_EQ((*near)[0], (*far)[0]) << y;
     EXPECT_NEAR((*far)[0], 216, 1) << y;  // the eastern buildings' height
   }
-  EXPECT_NEAR((*ground_at(s.scene, -1999, -1999))[0], 200, 1e-9);
+  EXPECT_NEAR((*ground_at(s.scene, -1999, -1999))[0], 200, 1);  // the western ones'
 }
 
 TEST(Ground, ReachesAtLeastBelowTheModel) {
@@ -245,6 +246,77 @@ TEST(Ground, MeetsTheHigherOfTwoNeighboursOnASlopeAndNeverLeavesOneInTheAir) {
   EXPECT_LT(gap_beside(s, {0, 10, 0}, {0, 0, 0}), kMillimetre);
   EXPECT_LT(gap_beside(s, {0, 0, 0}, {10, 0, 1}), kMillimetre);  // covers a wedge of the low wall
   EXPECT_EQ(skirt_area(s), 0);
+}
+
+// Distance of the farthest corner of a ground triangle steeper than 45 degrees from (x, y); skirts
+// aside.
+double reach_of_steepness(const Scene& s, double x, double y) {
+  double reach = 0;
+  for (std::size_t t = 0; t < s.mesh.triangles.size(); ++t) {
+    if (!is_ground(s, t)) continue;
+    const auto c = corners(s, t);
+    if (turn(c[0], c[1], c[2]) == 0) continue;
+    const Vec3 n = glm::cross(c[1] - c[0], c[2] - c[0]);
+    if (std::hypot(n.x, n.y) <= n.z) continue;
+    for (const Vec3& p : c) reach = std::max(reach, std::hypot(p.x - x, p.y - y));
+  }
+  return reach;
+}
+
+TEST(Ground, EndsAStepBetweenCloseCornersWithinEightMetresHoweverFarTheNextBuildingIs) {
+  // Two houses a crack of 2 cm apart, as they stand in Vienna, and others far to the south.
+  Scene s;
+  add_box(s, "low", rectangle(0, 0, 10, 10, 0), 8);
+  add_box(s, "high", rectangle(10.02, 0, 20, 10, 1.45), 8);
+  add_box(s, "far", rectangle(-20, -90, 0, -80, 1.45), 8);
+  add_box(s, "farther", rectangle(20, -95, 40, -85, 0), 8);
+  ground_of(s, {-200, -200, 200, 200});
+  EXPECT_GT(reach_of_steepness(s, 10.01, 0), 0);  // a step is there
+  // The crack itself, 10 m long, is steep as well.
+  EXPECT_LT(reach_of_steepness(s, 10.01, 0), 10 + 8);
+  EXPECT_LT(reach_of_steepness(s, 10.01, 10), 10 + 8);
+  EXPECT_LT(gap_beside(s, {0, 0, 0}, {10, 0, 0}), kMillimetre);
+  EXPECT_LT(gap_beside(s, {10.02, 0, 1.45}, {20, 0, 1.45}), kMillimetre);
+}
+
+TEST(Ground, IsOneSurfaceWithoutCracksFromTheFootprintsToTheRim) {
+  Slope s = slope();
+  const Bounds2 extent{-300, -300, 500, 400};
+  ground_of(s.scene, extent);
+  using Edge = std::array<std::array<double, 3>, 2>;
+  std::set<Edge> edges;
+  for (std::size_t t = 0; t < s.scene.mesh.triangles.size(); ++t) {
+    if (!is_ground(s.scene, t)) continue;
+    const auto c = corners(s.scene, t);
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 &a = c[k], &b = c[(k + 1) % 3];
+      EXPECT_TRUE(edges.insert({{{a.x, a.y, a.z}, {b.x, b.y, b.z}}}).second);
+    }
+  }
+  std::set<std::array<double, 3>> feet;
+  for (const auto& foot : s.feet) {
+    for (const Vec3& p : foot) feet.insert({p.x, p.y, p.z});
+  }
+  const auto on_rim = [&](const std::array<double, 3>& p) {
+    return p[0] == extent.x0 || p[0] == extent.x1 || p[1] == extent.y0 || p[1] == extent.y1;
+  };
+  for (const Edge& e : edges) {
+    if (edges.count({e[1], e[0]})) continue;
+    EXPECT_TRUE((feet.count(e[0]) && feet.count(e[1])) || (on_rim(e[0]) && on_rim(e[1])))
+        << e[0][0] << " " << e[0][1];
+  }
+}
+
+TEST(Ground, StaysBetweenTheHeightsOfTheBuildings) {
+  Slope s = slope();
+  ground_of(s.scene, {-300, -300, 500, 400});
+  for (std::size_t t = 0; t < s.scene.mesh.triangles.size(); ++t) {
+    if (!is_ground(s.scene, t)) continue;
+    for (const Vec3& p : corners(s.scene, t)) {
+      EXPECT_GE(p.z, 200);
+      EXPECT_LE(p.z, 216);
+    }
+  }
 }
 
 TEST(Ground, PutsASkirtBelowAPartThatStartsOnAnUpperFloor) {

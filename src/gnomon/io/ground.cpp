@@ -42,6 +42,21 @@ constexpr double kOnEdge = 1e-6;
 // storey in most building codes, in metres.
 constexpr double kStorey = 2.5;
 
+// Rings around the footprints, this far from them, with a vertex at least twice this often; a bend
+// by less than a fifth of it is left out (metres). Their vertices are free to take heights between
+// those of the buildings around, so that a step between two corners ends at the first ring; without
+// them it would reach as far as the next building. 3 m is what a stair or an embankment takes
+// beside a house; the second ring lets the triangles grow. Both lie within kRingMin of the model.
+constexpr double kAround[] = {3, 12};
+constexpr double kRingStep = 2, kRingBend = 0.2;
+static_assert(kAround[0] * (1 + kRingBend) < kAround[1] * (1 - kRingBend));  // they never meet
+static_assert(kAround[1] * (1 + kRingBend) < kRingMin);
+
+// The heights of free vertices are found by repeated averaging; it ends when none moves by more
+// than this (metres), the precision of models, or after this often.
+constexpr double kSettled = 1e-3;
+constexpr int kSweeps = 500;
+
 // Faces of the linework must cover the region; their areas are sums of rounded products, hence not
 // exactly. Relative.
 constexpr double kSameArea = 1e-9;
@@ -221,7 +236,8 @@ class EdgeFinder {
   std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
 };
 
-// ---- the surface
+// ---- the surface -----------------------------------------------------------------------------
+
 // Precondition: `points` is not empty.
 double nearest_height(const std::vector<Vec3>& points, const Vec2& p) {
   const auto rank = [&](const Vec3& q) {
@@ -231,8 +247,6 @@ double nearest_height(const std::vector<Vec3>& points, const Vec2& p) {
                           [&](const Vec3& a, const Vec3& b) { return rank(a) < rank(b); })
       ->z;
 }
-
-// -------------------------------------------------------------------------------------------------
 
 struct Surface3 {
   std::vector<Vec3> positions;
@@ -353,6 +367,93 @@ Geom unconstrained(const Geos& geos, const GEOSGeometry* region) {
   return collection(geos, GEOS_GEOMETRYCOLLECTION, std::move(kept));
 }
 
+// The ground inside `ring` and outside `closed`, cut along the rings of kAround: the band next to
+// the footprints first; all of it in one if `flat`. Empty if GEOS fails.
+std::vector<Geom> bands_around(const Geos& geos, const Geom& closed, const std::vector<Edge>& open,
+                               const Geom& ring, bool flat) {
+  std::vector<Geom> feet;
+  feet.push_back(own(geos, GEOSGeom_clone_r(geos.handle, closed.get())));
+  for (const Edge& e : open) {
+    feet.push_back(line(geos, {{e[0].x, e[0].y}, {e[1].x, e[1].y}}, false));
+  }
+  Geom wide = collection(geos, GEOS_GEOMETRYCOLLECTION, std::move(feet));
+  Geom inner = own(geos, GEOSGeom_clone_r(geos.handle, closed.get()));
+  std::vector<Geom> bands;
+  double before = 0;
+  for (const double distance : kAround) {
+    if (flat) break;
+    constexpr int kCornersPerQuarter = 2;
+    wide = own(geos, GEOSBuffer_r(geos.handle, wide.get(), distance - before, kCornersPerQuarter));
+    if (!wide) return {};
+    Geom outer =
+        own(geos, GEOSTopologyPreserveSimplify_r(geos.handle, wide.get(), kRingBend * distance));
+    if (outer) outer = own(geos, GEOSDensify_r(geos.handle, outer.get(), kRingStep * distance));
+    if (!outer) return {};
+    bands.push_back(own(geos, GEOSDifference_r(geos.handle, outer.get(), inner.get())));
+    if (!bands.back()) return {};
+    inner = std::move(outer);
+    before = distance;
+  }
+  bands.push_back(own(geos, GEOSDifference_r(geos.handle, ring.get(), inner.get())));
+  if (!bands.back()) bands.clear();
+  return bands;
+}
+
+// Hangs the free vertices between the fixed ones like a soap film, free at its rim: each gets the
+// mean of its neighbours' heights, weighted by nearness. No height leaves the range of the fixed
+// ones, and a step between two of them fades as fast as it is wide. Where no edge leads to a fixed
+// vertex, the nearest of `known` gives the height.
+void hang(Surface3& surface, const std::vector<bool>& fixed, const std::vector<Vec3>& known) {
+  struct Neighbour {
+    std::uint32_t v;
+    double weight;
+  };
+  std::vector<std::vector<Neighbour>> neighbours(surface.positions.size());
+  for (const Triangle& t : surface.triangles) {
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t u = t[k], v = t[(k + 1) % 3];
+      const Vec3 d = surface.positions[v] - surface.positions[u];
+      const double weight = 1 / std::hypot(d.x, d.y);
+      neighbours[u].push_back({v, weight});
+      neighbours[v].push_back({u, weight});
+    }
+  }
+  // The start: each free vertex has the height of the one it is first reached from.
+  std::vector<std::uint32_t> reached;
+  std::vector<bool> has_height = fixed;
+  for (std::uint32_t v = 0; v < fixed.size(); ++v) {
+    if (fixed[v]) reached.push_back(v);
+  }
+  for (std::size_t k = 0; k < reached.size(); ++k) {
+    for (const Neighbour& n : neighbours[reached[k]]) {
+      if (has_height[n.v]) continue;
+      has_height[n.v] = true;
+      surface.positions[n.v].z = surface.positions[reached[k]].z;
+      reached.push_back(n.v);
+    }
+  }
+  for (std::size_t v = 0; v < fixed.size(); ++v) {
+    Vec3& p = surface.positions[v];
+    if (!has_height[v]) p.z = nearest_height(known, Vec2(p.x, p.y));
+  }
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    double moved = 0;
+    for (std::size_t u = 0; u < neighbours.size(); ++u) {
+      if (fixed[u] || !has_height[u]) continue;
+      // Differences, so that level stays level to the bit.
+      double& z = surface.positions[u].z;
+      double sum = 0, weights = 0;
+      for (const Neighbour& n : neighbours[u]) {
+        sum += n.weight * (surface.positions[n.v].z - z);
+        weights += n.weight;
+      }
+      z += sum / weights;
+      moved = std::max(moved, std::abs(sum / weights));
+    }
+    if (moved < kSettled) break;
+  }
+}
+
 Result<Surface3> through(const Footprints& feet, const Bounds2& model, const Bounds2& extent,
                          Warnings& warnings) {
   Geos geos;
@@ -390,18 +491,18 @@ Result<Surface3> through(const Footprints& feet, const Bounds2& model, const Bou
   for (const auto& side : sides) ring_points.insert(ring_points.end(), side.begin(), side.end());
   ring_points.push_back(ring_points.front());
 
-  // Region: inside the ring, outside the footprints.
-  Geom region = polygon(geos, ring_points);
+  // Region: inside the ring, outside the footprints; in bands, but for flat ground.
+  Geom closed = own(geos, GEOSGeom_createEmptyPolygon_r(geos.handle));
   if (!triangles.empty()) {
     const Geom soup = collection(geos, GEOS_MULTIPOLYGON, std::move(triangles));
-    const Geom closed = own(geos, GEOSUnaryUnion_r(geos.handle, soup.get()));
+    closed = own(geos, GEOSUnaryUnion_r(geos.handle, soup.get()));
     if (!closed) return failed("the union of the footprints");
-    region = own(geos, GEOSDifference_r(geos.handle, region.get(), closed.get()));
-    if (!region) return failed("cutting the footprints out of the ground");
   }
+  std::vector<Geom> bands = bands_around(geos, closed, feet.open, polygon(geos, ring_points), flat);
+  if (bands.empty()) return failed("cutting the footprints out of the ground");
   if (!feet.open.empty()) {
-    if (Geom faces = split_by(geos, region.get(), feet.open)) {
-      region = std::move(faces);
+    if (Geom faces = split_by(geos, bands.front().get(), feet.open)) {
+      bands.front() = std::move(faces);
     } else {
       warn(warnings,
            "The lower edges of objects without a bottom could not be worked into the ground; they "
@@ -410,6 +511,7 @@ Result<Surface3> through(const Footprints& feet, const Bounds2& model, const Bou
            "", feet.open.size());
     }
   }
+  const Geom region = collection(geos, GEOS_GEOMETRYCOLLECTION, std::move(bands));
   Geom mesh = own(geos, GEOSConstrainedDelaunayTriangulation_r(geos.handle, region.get()));
   if (!mesh) {
     warn(warnings,
@@ -462,21 +564,20 @@ Result<Surface3> through(const Footprints& feet, const Bounds2& model, const Bou
     out.triangles.push_back(v);
   });
   z.resize(id.points.size(), kUnknown);
-  // All others, those of the ring, have the height of the nearest footprint vertex (the lowest of
-  // several).
+  // All others hang between these. Lower edges that enclose nothing have left no vertex in the
+  // ground, only their heights.
+  std::vector<bool> fixed(id.points.size());
   std::vector<Vec3> known;
   for (std::uint32_t k = 0; k < id.points.size(); ++k) {
-    if (z[k] != kUnknown) known.push_back(Vec3(id.points[k], z[k]));
+    fixed[k] = z[k] != kUnknown;
+    if (fixed[k]) known.push_back(Vec3(id.points[k], z[k]));
+    out.positions.push_back(Vec3(id.points[k], fixed[k] ? z[k] : z0));
   }
-  // Lower edges that enclose nothing have left no vertex in the ground, only their heights.
   if (known.empty()) {
     for (const Edge& e : feet.open) known.insert(known.end(), e.begin(), e.end());
   }
-  for (std::uint32_t k = 0; k < id.points.size(); ++k) {
-    const Vec2 p = id.points[k];
-    if (z[k] == kUnknown) z[k] = flat ? z0 : nearest_height(known, p);
-    out.positions.push_back(Vec3(p, z[k]));
-  }
+  if (!flat) hang(out, fixed, known);
+  for (std::size_t k = 0; k < z.size(); ++k) z[k] = out.positions[k].z;
   // What stands more than a storey above its neighbour stands on a skirt: an upright wall from the
   // ground to its lower edge, so that no light passes below it.
   for (const Border& b : borders) {
@@ -493,7 +594,6 @@ Result<Surface3> through(const Footprints& feet, const Bounds2& model, const Bou
   return out;
 }
 
-// ---- modes
 // ---- modes ----------------------------------------------------------------------------------
 
 // The rectangle around everything and its lowest point; `extent` alone for an empty scene.
