@@ -10,7 +10,7 @@
 namespace gnomon {
 
 namespace {
-constexpr int kLargestSide = 32767;  // of a Cairo image surface
+[[maybe_unused]] constexpr int kLargestSide = 32767;  // of a Cairo image surface
 
 struct FreeLayout {
   void operator()(PangoLayout* layout) const { g_object_unref(layout); }
