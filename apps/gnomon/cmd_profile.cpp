@@ -237,7 +237,10 @@ void run(const Options& o) {
   {
     ProgressBar bar("drawing the view", o.common.quiet);
     ViewOptions as_camera = o.view;
-    if (!camera) as_camera = ViewOptions{};
+    if (!camera) {
+      as_camera = ViewOptions{};
+      as_camera.bounds = o.view.bounds;
+    }
     const View wide = make_camera(scene, as_camera, middle_azimuth(samples), kSupersample);
     const Receivers seen = visible_surfaces(scene, wide, o.common.threads);
     const std::vector<Light> lights = picture_lights(samples.instants);
@@ -281,6 +284,16 @@ void run(const Options& o) {
 
   if (o.common.quiet) return;
   print_warnings(warnings);
+  const Box box = model_box(scene);
+  for (const FileReport& f : loaded.files) {
+    if (f.format != "OBJ") continue;
+    const LoadOptions& l = o.models.load;
+    fmt::print("{}: {} up{}, unit {}{}\n", f.path, l.up == 'z' ? "z" : "y",
+               l.up == 0 ? " (assumed; --up z if not)" : "", l.unit.empty() ? "m" : l.unit,
+               l.unit.empty() ? " (assumed; --unit mm, cm, ft, in if not)" : "");
+  }
+  fmt::print("model: {:.1f} m east-west, {:.1f} m north-south, {:.1f} m high\n",
+             box.hi.x - box.lo.x, box.hi.y - box.lo.y, box.hi.z - box.lo.z);
   fmt::print("{}\n{}; {}; the sun was up for {:.2f} h of it\n", title, window, steps,
              profile.daylight_ms / 3.6e6);
   fmt::print("{} x {} samples over {} triangles in {:.2f} s\n", view.width, view.height,

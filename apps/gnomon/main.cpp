@@ -41,7 +41,12 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
-    return app.exit(e);
+    if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
+    std::fprintf(
+        stderr,
+        "gnomon: error: %s\nRun gnomon --help, or gnomon COMMAND --help, for what there is.\n",
+        e.what());
+    return 2;
   } catch (const std::exception& e) {
     std::fprintf(stderr, "gnomon: error: %s\n", e.what());
     return 1;

@@ -23,6 +23,7 @@ constexpr std::array kPixelSizes = {0.05, 0.1, 0.2,  0.25, 0.5,  1.0,
 constexpr double kAutoPixels = 2000;  // on the longer side
 constexpr double kBytesPerSample =
     64;  // of everything that a profile keeps per sample, at its peak
+constexpr double kFarthestShadow = 30;         // heights of the model
 constexpr double kEyeAltitude = 42 * kDegree;  // of the automatic camera above the horizon
 constexpr double kEyeBesideSun =
     35 * kDegree;  // and to the right of the sun, so that shadows are seen
@@ -184,6 +185,16 @@ View make_plan(const Scene& scene, const ViewOptions& o) {
   Bounds2 b;
   if (const std::optional<Bounds2> given = parse_bounds(o.bounds)) {
     b = {given->x0 - origin.x, given->y0 - origin.y, given->x1 - origin.x, given->y1 - origin.y};
+    // A sun 2 degrees high throws shadows 29 times as long as things are high.
+    const double reach = kFarthestShadow * (box.hi.z - box.lo.z);
+    if (b.x0 > box.hi.x + reach || b.x1 < box.lo.x - reach || b.y0 > box.hi.y + reach ||
+        b.y1 < box.lo.y - reach) {
+      throw Failure(
+          fmt::format("--bounds {} lie far from the model, which reaches from {:.2f},{:.2f} to "
+                      "{:.2f},{:.2f} in its coordinates",
+                      o.bounds, box.lo.x + origin.x, box.lo.y + origin.y, box.hi.x + origin.x,
+                      box.hi.y + origin.y));
+    }
   } else {
     // Room for shadows: three heights of the model, but no more than 50 m or a twentieth of a large
     // model.
@@ -217,7 +228,14 @@ View make_camera(const Scene& scene, const ViewOptions& o, double sun_azimuth, i
   const std::array<int, 2> size = parse_size(o.size);
   const int width = size[0] * supersample, height = size[1] * supersample;
   check_memory(width, height, "give a smaller --size");
-  const Box box = model_box(scene);
+  Box box = model_box(scene);
+  if (const std::optional<Bounds2> part = parse_bounds(o.bounds)) {  // of a plan: look at that part
+    const Vec3& origin = scene.frame.origin;
+    box.lo.x = std::max(box.lo.x, part->x0 - origin.x);
+    box.lo.y = std::max(box.lo.y, part->y0 - origin.y);
+    box.hi.x = std::max(box.lo.x, std::min(box.hi.x, part->x1 - origin.x));
+    box.hi.y = std::max(box.lo.y, std::min(box.hi.y, part->y1 - origin.y));
+  }
   const Vec3 target = o.target.empty() ? (box.lo + box.hi) * 0.5
                                        : parse_point(o.target, "--target", scene.frame.origin);
   const double fov = o.fov_deg * kDegree;

@@ -163,13 +163,15 @@ void add_side(LightSetup& s, const ViewSetup& v, const Casters& casters, const V
   if (p.first_row >= p.end_row) s.polygons.pop_back();
 }
 
+// Casters that do not receive: rays may cross them before they reach their sample. One that
+// receives cannot be in front of the first receiver.
 void add_casters(LightSetup& s, const ViewSetup& v, const Casters& casters, const View& view,
                  const std::vector<std::int8_t>& sides) {
   const Scene& scene = *casters.scene;
   const EquationErrors errors =
       equation_errors(v.screen.bound, v.screen.bound, v.screen.bound, view.width, view.height);
   for (std::uint32_t t = 0; t < scene.mesh.triangles.size(); ++t) {
-    if (!is_caster(casters, t)) continue;
+    if (!is_caster(casters, t) || receives(scene, t)) continue;
     const Triangle& c = scene.mesh.triangles[t];
     const PolygonEquations<double> q =
         polygon_equations(v.screen.points[c[0]], v.screen.points[c[1]], v.screen.points[c[2]]);
@@ -245,7 +247,6 @@ class Exact final : public ExactDecisions {
                                 static_cast<std::size_t>(receivers_.view.width) +
                             static_cast<std::size_t>(column)];
     if (triangle == kNoTriangle) return false;
-    if (!is_side(p) && p.id == triangle) return false;  // not in front of itself
     const Corners r = corners_of(*casters_.scene, triangle);
     if (triangle != last_triangle_) {
       last_triangle_ = triangle;
