@@ -175,6 +175,11 @@ void add_casters(LightSetup& s, const ViewSetup& v, const Casters& casters, cons
     const Triangle& c = scene.mesh.triangles[t];
     const PolygonEquations<double> q =
         polygon_equations(v.screen.points[c[0]], v.screen.points[c[1]], v.screen.points[c[2]]);
+    if (is_parallel(view) && std::fabs(q.f) <= errors.f &&
+        seen_edge_on(view, scene.mesh.positions[c[0]], scene.mesh.positions[c[1]],
+                     scene.mesh.positions[c[2]])) {
+      continue;  // a wall seen from above
+    }
     Polygon& p = s.polygons.emplace_back();
     set_up(p, q, errors, v.space, view, corners_of(scene, t), s.light, s.stats);
     set_rows(p, q, errors, v.space, v.least_nearness);
