@@ -2,8 +2,6 @@
 // those of GEOS (OverlayNG).
 #include <gnomon/io/ground.h>
 
-#include <geos_c.h>
-
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -21,6 +19,7 @@
 #include <glm/geometric.hpp>
 
 #include <gnomon/io/footprints.h>
+#include <gnomon/io/geos_geometry.h>
 
 namespace gnomon {
 namespace {
@@ -60,97 +59,6 @@ constexpr int kSweeps = 500;
 // Faces of the linework must cover the region; their areas are sums of rounded products, hence not
 // exactly. Relative.
 constexpr double kSameArea = 1e-9;
-
-// ---- GEOS, owned
-// -------------------------------------------------------------------------------------------------
-
-struct Geos {
-  GEOSContextHandle_t handle = GEOS_init_r();
-  std::string message;  // the last thing GEOS complained of
-  Geos() {
-    GEOSContext_setErrorMessageHandler_r(
-        handle, [](const char* text, void* self) { static_cast<Geos*>(self)->message = text; },
-        this);
-  }
-  ~Geos() { GEOS_finish_r(handle); }
-  Geos(const Geos&) = delete;
-  Geos& operator=(const Geos&) = delete;
-};
-
-struct GeomDeleter {
-  GEOSContextHandle_t handle;
-  void operator()(GEOSGeometry* g) const { GEOSGeom_destroy_r(handle, g); }
-};
-using Geom = std::unique_ptr<GEOSGeometry, GeomDeleter>;
-
-Geom own(const Geos& geos, GEOSGeometry* g) { return Geom(g, GeomDeleter{geos.handle}); }
-
-Geom line(const Geos& geos, const std::vector<Vec2>& points, bool ring) {
-  GEOSCoordSequence* s =
-      GEOSCoordSeq_create_r(geos.handle, static_cast<unsigned>(points.size()), 2);
-  for (unsigned k = 0; k < points.size(); ++k) {
-    GEOSCoordSeq_setXY_r(geos.handle, s, k, points[k].x, points[k].y);
-  }
-  return own(geos, ring ? GEOSGeom_createLinearRing_r(geos.handle, s)
-                        : GEOSGeom_createLineString_r(geos.handle, s));
-}
-
-// `ring` is closed: the first point repeated at the end.
-Geom polygon(const Geos& geos, const std::vector<Vec2>& ring) {
-  return own(geos,
-             GEOSGeom_createPolygon_r(geos.handle, line(geos, ring, true).release(), nullptr, 0));
-}
-
-Geom collection(const Geos& geos, int type, std::vector<Geom>&& parts) {
-  std::vector<GEOSGeometry*> raw;
-  for (Geom& g : parts) raw.push_back(g.release());
-  return own(geos, GEOSGeom_createCollection_r(geos.handle, type, raw.data(),
-                                               static_cast<unsigned>(raw.size())));
-}
-
-std::vector<Vec2> points_of(const Geos& geos, const GEOSGeometry* line_or_ring) {
-  const GEOSCoordSequence* s = GEOSGeom_getCoordSeq_r(geos.handle, line_or_ring);
-  unsigned n = 0;
-  GEOSCoordSeq_getSize_r(geos.handle, s, &n);
-  std::vector<Vec2> points(n);
-  for (unsigned k = 0; k < n; ++k) {
-    GEOSCoordSeq_getXY_r(geos.handle, s, k, &points[k].x, &points[k].y);
-  }
-  return points;
-}
-
-void for_each_polygon(const Geos& geos, const GEOSGeometry* g,
-                      const std::function<void(const GEOSGeometry*)>& visit) {
-  if (GEOSGeomTypeId_r(geos.handle, g) == GEOS_POLYGON) {
-    if (GEOSisEmpty_r(geos.handle, g) == 0) visit(g);
-    return;
-  }
-  const int n = GEOSGetNumGeometries_r(geos.handle, g);
-  if (GEOSGeomTypeId_r(geos.handle, g) < GEOS_MULTIPOINT) return;  // a point or a line
-  for (int k = 0; k < n; ++k) for_each_polygon(geos, GEOSGetGeometryN_r(geos.handle, g, k), visit);
-}
-
-// Calls visit(ring) for the outer ring and the holes, each with the polygon's inside on its left.
-void for_each_ring(const Geos& geos, const GEOSGeometry* poly,
-                   const std::function<void(const std::vector<Vec2>&)>& visit) {
-  const int holes = GEOSGetNumInteriorRings_r(geos.handle, poly);
-  for (int k = -1; k < holes; ++k) {
-    const GEOSGeometry* ring = k < 0 ? GEOSGetExteriorRing_r(geos.handle, poly)
-                                     : GEOSGetInteriorRingN_r(geos.handle, poly, k);
-    std::vector<Vec2> points = points_of(geos, ring);
-    char counter_clockwise = 1;
-    GEOSCoordSeq_isCCW_r(geos.handle, GEOSGeom_getCoordSeq_r(geos.handle, ring),
-                         &counter_clockwise);
-    if ((counter_clockwise != 0) != (k < 0)) std::reverse(points.begin(), points.end());
-    visit(points);
-  }
-}
-
-double area(const Geos& geos, const GEOSGeometry* g) {
-  double a = 0;
-  GEOSArea_r(geos.handle, g, &a);
-  return a;
-}
 
 // ---- vertices and heights
 // ------------------------------------------------------------------------------------
