@@ -316,7 +316,7 @@ class Cities : public testing::TestWithParam<City> {};
 TEST_P(Cities, LoadWithTheCountsTheirSourcesGive) {
   const City& city = GetParam();
   const auto path = std::filesystem::path(GNOMON_DATA) / "city" / city.file;
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << "skipped: " << path << " is not there";
   const LoadedScene loaded = load({path}, without_ground());
   const FileReport& report = loaded.files[0];
   EXPECT_EQ(report.format, city.format);
@@ -364,7 +364,8 @@ TEST(LoadScene, TheLodsOfAFileAddUpToItsPolygons) {
     }
     return polygons;
   };
-  if (!std::filesystem::exists(GNOMON_DATA)) GTEST_SKIP() << GNOMON_DATA << " is not there";
+  if (!std::filesystem::exists(GNOMON_DATA))
+    GTEST_SKIP() << "skipped: " << GNOMON_DATA << " is not there";
   EXPECT_EQ(sum("multi_lod.json", {"1.2", "1.3", "2.2"}), 752u);
   EXPECT_EQ(sum("tile_901_trimmed.jsonl", {"0", "1.2", "1.3", "2.2"}), 3552u);
 }
@@ -384,7 +385,8 @@ TEST(LoadScene, TheShippedViennaIsRead) {
 }
 
 TEST(LoadScene, EveryObjOfTheCollectionLoadsOrSaysWhyNot) {
-  if (!std::filesystem::exists(GNOMON_DATA)) GTEST_SKIP() << GNOMON_DATA << " is not there";
+  if (!std::filesystem::exists(GNOMON_DATA))
+    GTEST_SKIP() << "skipped: " << GNOMON_DATA << " is not there";
   std::size_t loaded = 0, refused = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(GNOMON_DATA)) {
     if (entry.path().extension() != ".obj") continue;
