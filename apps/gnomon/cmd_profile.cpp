@@ -12,11 +12,11 @@
 #include <gnomon/io/write_geotiff.h>
 #include <gnomon/shadow/cast_shadows.h>
 #include <gnomon/sun/time_zone.h>
-#include <unistd.h>
 
 #include "commands.h"
 #include "model_options.h"
 #include "progress.h"
+#include "staging.h"
 #include "summary.h"
 #include "time_options.h"
 #include "view_options.h"
@@ -58,50 +58,15 @@ class Stopwatch {
   Clock::time_point begin_ = Clock::now(), last_ = begin_;
 };
 
-// Results are made in a folder of their own inside the output folder and moved out of it together
-// at the end: a run that fails leaves the files of the run before it as they were.
-class Staging {
- public:
-  explicit Staging(const std::filesystem::path& output)
-      : output_(take(make_output_folder(output))),
-        folder_(output_ / fmt::format("unfinished-{}.tmp", getpid())) {
-    take(make_output_folder(folder_));
-  }
-  ~Staging() {
+// The other kind of map that an earlier run may have left would belong to other results.
+void remove_other_map(const Staging& staging) {
+  for (const char* map : {"plan.png", "hours.png"}) {
+    const auto& names = staging.names();
     std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
+    if (std::find(names.begin(), names.end(), map) == names.end())
+      std::filesystem::remove(staging.output() / map, ignored);
   }
-  Staging(const Staging&) = delete;
-  Staging& operator=(const Staging&) = delete;
-
-  std::filesystem::path path(const char* name) {
-    names_.emplace_back(name);
-    return folder_ / name;
-  }
-  const std::vector<std::string>& names() const { return names_; }
-  const std::filesystem::path& output() const { return output_; }
-
-  // Also removes the other kind of map that an earlier run may have left: it would belong to other
-  // results.
-  void publish() {
-    for (const std::string& name : names_) {
-      std::error_code error;
-      std::filesystem::rename(folder_ / name, output_ / name, error);
-      if (error)
-        throw Failure(fmt::format("cannot move {} into place: {}", (output_ / name).string(),
-                                  error.message()));
-    }
-    for (const char* map : {"plan.png", "hours.png"}) {
-      std::error_code ignored;
-      if (std::find(names_.begin(), names_.end(), map) == names_.end())
-        std::filesystem::remove(output_ / map, ignored);
-    }
-  }
-
- private:
-  std::filesystem::path output_, folder_;
-  std::vector<std::string> names_;
-};
+}
 
 std::string title_of(const Options& o) {
   if (!o.title.empty()) return o.title;
@@ -281,6 +246,7 @@ void run(const Options& o) {
                         static_cast<std::size_t>(picture.instants)};
   take(write_text_file(summary_path, summary_json(summary, warnings)));
   staging.publish();
+  remove_other_map(staging);
 
   if (o.common.quiet) return;
   print_warnings(warnings);

@@ -59,20 +59,19 @@ PjPtr unbound(PJ_CONTEXT* context, const PJ* crs) {
   return p;
 }
 
-// One fixed operation from `crs` to WGS 84 longitude, latitude in degrees; the one PROJ suggests
-// for `p`. Fixed, because with PROJ's usual choice per point two neighbouring points may go through
+// One fixed operation from `crs` to `target`, axis order east, north; the one PROJ suggests for
+// `p`. Fixed, because with PROJ's usual choice per point two neighbouring points may go through
 // different datum shifts, metres apart, which would ruin the direction.
-PjPtr operation_at(PJ_CONTEXT* context, const PJ* crs, const Vec3& p) {
-  PjPtr wgs84(proj_create(context, "OGC:CRS84"));
+PjPtr operation_at(PJ_CONTEXT* context, const PJ* crs, const PJ* target, const Vec2& p) {
   std::unique_ptr<PJ_OPERATION_FACTORY_CONTEXT, FactoryDeleter> factory(
       proj_create_operation_factory_context(context, nullptr));
-  if (!wgs84 || !factory) return nullptr;
+  if (!factory) return nullptr;
   proj_operation_factory_context_set_spatial_criterion(context, factory.get(),
                                                        PROJ_SPATIAL_CRITERION_PARTIAL_INTERSECTION);
   proj_operation_factory_context_set_grid_availability_use(
       context, factory.get(), PROJ_GRID_AVAILABILITY_DISCARD_OPERATION_IF_MISSING_GRID);
   std::unique_ptr<PJ_OBJ_LIST, ListDeleter> operations(
-      proj_create_operations(context, crs, wgs84.get(), factory.get()));
+      proj_create_operations(context, crs, target, factory.get()));
   if (!operations || proj_list_get_count(operations.get()) == 0) return nullptr;
   // PROJ asks for the point in the axis order of the CRS (some have northing first).
   PjPtr bare = unbound(context, crs);
@@ -110,41 +109,60 @@ Error outside(const std::string& shown, const Vec3& p, const std::string& why) {
                   p.x, p.y, shown, why)};
 }
 
+ContextPtr quiet_context() {
+  ContextPtr context(proj_context_create());
+  proj_log_level(context.get(), PJ_LOG_NONE);
+  proj_context_set_enable_network(context.get(), 0);
+  return context;
+}
+
+// For messages.
+std::string shown_crs(const std::string& crs) {
+  const std::string text = short_crs(crs);
+  return text.size() > 60 ? "'" + text.substr(0, 57) + "...'" : "'" + text + "'";
+}
+
+Result<PjPtr> parse_crs(PJ_CONTEXT* context, const std::string& crs) {
+  std::string definition = short_crs(crs);
+  // A PROJ string is an operation unless it says that it is a CRS.
+  if (definition.find("+proj=") != std::string::npos &&
+      definition.find("+type=crs") == std::string::npos) {
+    definition += " +type=crs";
+  }
+  PjPtr whole(definition.empty() ? nullptr : proj_create(context, definition.c_str()));
+  if (whole && proj_is_crs(whole.get())) return whole;
+  if (!proj_context_get_database_path(context)) {
+    return Error{"PROJ's database proj.db is not found, so CRS " + shown_crs(crs) +
+                 " cannot be looked up; install the package proj-data or set PROJ_DATA"};
+  }
+  return Error{"unknown CRS " + shown_crs(crs) +
+               "; give a code such as EPSG:31256, an OGC URN or URL, or WKT"};
+}
+
+// Of a compound CRS, its horizontal part; else the CRS itself. Null where there is none.
+PjPtr horizontal_part(PJ_CONTEXT* context, PjPtr crs) {
+  while (crs && proj_get_type(crs.get()) == PJ_TYPE_COMPOUND_CRS) {
+    crs.reset(proj_crs_get_sub_crs(context, crs.get(), 0));
+  }
+  return crs;
+}
+
 }  // namespace
 
 Result<CrsPlace> locate(const std::string& crs, const Vec3& p) {
   if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
     return Error{"the point to locate is not finite; check the model's coordinates"};
   }
-  ContextPtr context(proj_context_create());
-  proj_log_level(context.get(), PJ_LOG_NONE);
-  proj_context_set_enable_network(context.get(), 0);
-
-  std::string definition = short_crs(crs);
-  const std::string shown =
-      definition.size() > 60 ? "'" + definition.substr(0, 57) + "...'" : "'" + definition + "'";
-  // A PROJ string is an operation unless it says that it is a CRS.
-  if (definition.find("+proj=") != std::string::npos &&
-      definition.find("+type=crs") == std::string::npos) {
-    definition += " +type=crs";
-  }
-  PjPtr whole(definition.empty() ? nullptr : proj_create(context.get(), definition.c_str()));
-  if (!whole || !proj_is_crs(whole.get())) {
-    if (!proj_context_get_database_path(context.get())) {
-      return Error{"PROJ's database proj.db is not found, so CRS " + shown +
-                   " cannot be looked up; install the package proj-data or set PROJ_DATA"};
-    }
-    return Error{"unknown CRS " + shown +
-                 "; give a code such as EPSG:31256, an OGC URN or URL, or WKT"};
-  }
+  const ContextPtr context = quiet_context();
+  auto parsed = parse_crs(context.get(), crs);
+  if (!parsed) return parsed.error();
+  PjPtr whole = std::move(parsed).value();
+  const std::string shown = shown_crs(crs);
   const char* own_name = proj_get_name(whole.get());
   std::string name = own_name ? own_name : "";
 
-  PjPtr horizontal = std::move(whole);
-  while (proj_get_type(horizontal.get()) == PJ_TYPE_COMPOUND_CRS) {
-    horizontal.reset(proj_crs_get_sub_crs(context.get(), horizontal.get(), 0));
-    if (!horizontal) return Error{"the compound CRS " + shown + " has no horizontal part"};
-  }
+  const PjPtr horizontal = horizontal_part(context.get(), std::move(whole));
+  if (!horizontal) return Error{"the compound CRS " + shown + " has no horizontal part"};
   const PjPtr bare = unbound(context.get(), horizontal.get());
   const PJ_TYPE type = bare ? proj_get_type(bare.get()) : PJ_TYPE_UNKNOWN;
   if (is_geographic(type)) {
@@ -170,7 +188,9 @@ Result<CrsPlace> locate(const std::string& crs, const Vec3& p) {
   }
   result.metres_per_unit = unit;
 
-  const PjPtr operation = operation_at(context.get(), horizontal.get(), p);
+  const PjPtr wgs84(proj_create(context.get(), "OGC:CRS84"));
+  if (!wgs84) return Error{"PROJ does not know WGS 84: its database proj.db is broken"};
+  const PjPtr operation = operation_at(context.get(), horizontal.get(), wgs84.get(), {p.x, p.y});
   if (!operation) {
     return Error{"PROJ knows no way from CRS " + shown + " (" + name +
                  ") to WGS 84; use another CRS, or --site LAT,LON and --north"};
@@ -220,6 +240,51 @@ std::string short_crs(const std::string& crs) {
   std::smatch match;
   if (std::regex_match(crs, match, forms)) return "EPSG:" + match[1].str();
   return crs;
+}
+
+bool is_geographic_crs(const std::string& crs) {
+  const ContextPtr context = quiet_context();
+  auto parsed = parse_crs(context.get(), crs);
+  if (!parsed) return false;
+  const PjPtr horizontal = horizontal_part(context.get(), std::move(parsed).value());
+  const PjPtr bare = horizontal ? unbound(context.get(), horizontal.get()) : nullptr;
+  return bare && is_geographic(proj_get_type(bare.get()));
+}
+
+std::string utm_crs(const Place& place) {
+  const double latitude = place.latitude / kDegree, longitude = place.longitude / kDegree;
+  if (latitude > 84) return "EPSG:32661";
+  if (latitude < -80) return "EPSG:32761";
+  const double turn = longitude - 360 * std::floor((longitude + 180) / 360) + 180;  // [0, 360)
+  const int zone = static_cast<int>(turn / 6) % 60 + 1;
+  return fmt::format("EPSG:{}", (latitude < 0 ? 32700 : 32600) + zone);
+}
+
+Result<std::vector<Vec2>> reproject(const std::string& from, const std::string& to,
+                                    std::vector<Vec2> points) {
+  const ContextPtr context = quiet_context();
+  auto source = parse_crs(context.get(), from), target = parse_crs(context.get(), to);
+  if (!source) return source.error();
+  if (!target) return target.error();
+  if (points.empty()) return points;
+  const PjPtr a = horizontal_part(context.get(), std::move(source).value());
+  const PjPtr b = horizontal_part(context.get(), std::move(target).value());
+  const PjPtr operation =
+      a && b ? operation_at(context.get(), a.get(), b.get(), points[0]) : nullptr;
+  if (!operation) {
+    return Error{"PROJ knows no way from CRS " + shown_crs(from) + " to " + shown_crs(to) +
+                 "; reproject the data beforehand"};
+  }
+  for (Vec2& p : points) {
+    const std::optional<Vec2> moved = transform(operation.get(), PJ_FWD, p);
+    if (!moved) {
+      return Error{
+          fmt::format("the point ({:.9g}, {:.9g}) of CRS {} has no place in {}; check the CRS", p.x,
+                      p.y, shown_crs(from), shown_crs(to))};
+    }
+    p = *moved;
+  }
+  return points;
 }
 
 }  // namespace gnomon

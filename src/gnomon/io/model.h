@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -35,8 +37,16 @@ struct Model {
       0};  // ring r is corners[ring_begin[r] .. ring_begin[r + 1])
   std::vector<ModelPolygon> polygons;
   std::vector<Surface> surfaces;
+  // Where the origin of local coordinates stands and which way their +y looks (radians clockwise
+  // from +y to true north), where the file says so (IFC); not used where report.crs is set.
+  std::optional<Place> site;
+  std::optional<double> north;
   Warnings warnings;
 };
+
+// Height of the ground below a point, metres, in the scene's CRS (east, north); nothing where there
+// is none. For readers of what stands on the ground: footprints, heights above ground.
+using GroundAt = std::function<std::optional<double>(double x, double y)>;
 
 // A Model under construction: equal vertices become one, surfaces with the same names too.
 class ModelBuilder {
