@@ -213,15 +213,11 @@ std::string table(const std::string& title, const std::vector<Share>& shares) {
   return text;
 }
 
-std::string file_text(const FileReport& f, const LoadOptions& options) {
+std::string file_text(const FileReport& f) {
   std::string text = f.path + "\n" + row("format", f.format);
   text += row("CRS", f.crs.empty() ? "none in the file" : f.crs);
-  if (f.format == "OBJ") {
-    text += row("up axis", options.up != 0 ? std::string(1, options.up) + " (--up)"
-                                           : "y (the usual one of OBJ; --up z if the model lies)");
-    text += row("unit", options.unit.empty() ? "m (assumed; --unit says otherwise)"
-                                             : options.unit + " (--unit)");
-  }
+  if (!f.axes.empty()) text += row("axes", f.axes);
+  if (!f.placed.empty()) text += row("placed", f.placed);
   if (!f.lods.empty()) text += row("LoD", joined(f.lods) + " found; " + f.lod_used + " used");
   text += row("contents", counted(f.objects, "object") + ", " + counted(f.surfaces, "polygon") +
                               ", " + counted(f.triangles, "triangle"));
@@ -231,7 +227,7 @@ std::string file_text(const FileReport& f, const LoadOptions& options) {
   return text + "\n";
 }
 
-std::string place_text(const Inspection& in, const LoadOptions& options) {
+std::string place_text(const Inspection& in) {
   const Frame& frame = in.loaded.scene.frame;
   std::string text;
   if (frame.crs.empty()) {
@@ -244,20 +240,18 @@ std::string place_text(const Inspection& in, const LoadOptions& options) {
   if (frame.place) {
     const double latitude = frame.place->latitude / kDegree;
     const double longitude = frame.place->longitude / kDegree;
-    text += row("place", fmt::format("{:.6f} {}, {:.6f} {}, height {:.1f} m{}", std::abs(latitude),
-                                     latitude < 0 ? 'S' : 'N', std::abs(longitude),
-                                     longitude < 0 ? 'W' : 'E', frame.place->height,
-                                     options.site ? " (--site)" : ""));
+    text += row("place",
+                fmt::format("{:.6f} {}, {:.6f} {}, height {:.1f} m{}", std::abs(latitude),
+                            latitude < 0 ? 'S' : 'N', std::abs(longitude),
+                            longitude < 0 ? 'W' : 'E', frame.place->height,
+                            in.loaded.place_by.empty() ? "" : " (" + in.loaded.place_by + ")"));
   } else {
     text += row("place", "none: the sun needs one; give --crs, or --site LAT,LON");
   }
   const double north = frame.true_north / kDegree;
   std::string way = north < 0 ? "counter-clockwise" : "clockwise";
-  std::string why = options.north        ? "--north"
-                    : !frame.crs.empty() ? "meridian convergence"
-                                         : "assumed; --north DEG says otherwise";
-  text +=
-      row("true north", fmt::format("{:.4f} degrees {} from +y ({})", std::abs(north), way, why));
+  text += row("true north", fmt::format("{:.4f} degrees {} from +y ({})", std::abs(north), way,
+                                        in.loaded.north_by));
   const double* a = in.metres_low;
   const double* b = in.metres_high;
   text += row("size", fmt::format("{:.2f} m east, {:.2f} m north, {:.2f} m high", b[0] - a[0],
@@ -299,11 +293,11 @@ std::string mesh_text(const Inspection& in) {
   return text;
 }
 
-std::string as_text(const Inspection& in, const LoadOptions& options) {
+std::string as_text(const Inspection& in) {
   const Scene& scene = in.loaded.scene;
   std::string text;
-  for (const FileReport& f : in.loaded.files) text += file_text(f, options);
-  text += "Scene\n" + place_text(in, options);
+  for (const FileReport& f : in.loaded.files) text += file_text(f);
+  text += "Scene\n" + place_text(in);
   text += row("triangles", fmt::format("{} over {} vertices, after welding",
                                        in.mesh.total.triangles, in.vertices));
   const GroundReport& ground = in.loaded.ground;
@@ -315,8 +309,9 @@ std::string as_text(const Inspection& in, const LoadOptions& options) {
     text += row("selected", fmt::format("{} of {} triangles cast, {} receive (ground included)",
                                         in.casting, all, in.receiving));
   }
-  const bool any_city = std::any_of(in.loaded.files.begin(), in.loaded.files.end(),
-                                    [](const FileReport& f) { return f.format != "OBJ"; });
+  const bool any_city =
+      std::any_of(in.loaded.files.begin(), in.loaded.files.end(),
+                  [](const FileReport& f) { return f.format.starts_with("CityJSON"); });
   text += table(any_city ? "Objects by type" : "Groups", in.types);
   text += table("Semantic surfaces", in.semantics);
   text += table("Materials", in.materials);
@@ -384,6 +379,8 @@ std::string as_json(const Inspection& in) {
     json["files"].push_back({{"path", f.path},
                              {"format", f.format},
                              {"crs", f.crs.empty() ? Json() : Json(f.crs)},
+                             {"axes", f.axes},
+                             {"placed", f.placed},
                              {"lods", f.lods},
                              {"lod_used", f.lod_used},
                              {"objects", f.objects},
@@ -422,7 +419,7 @@ void run(const Options& options) {
   auto loaded = load_scene(options.model.models, options.model.load);
   if (!loaded) throw Failure(loaded.error().message);
   const Inspection in = inspect(std::move(loaded).value());
-  fmt::print("{}", options.json ? as_json(in) : as_text(in, options.model.load));
+  fmt::print("{}", options.json ? as_json(in) : as_text(in));
 }
 
 }  // namespace

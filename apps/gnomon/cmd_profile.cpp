@@ -252,11 +252,8 @@ void run(const Options& o) {
   print_warnings(warnings);
   const Box box = model_box(scene);
   for (const FileReport& f : loaded.files) {
-    if (f.format != "OBJ") continue;
-    const LoadOptions& l = o.models.load;
-    fmt::print("{}: {} up{}, unit {}{}\n", f.path, l.up == 'z' ? "z" : "y",
-               l.up == 0 ? " (assumed; --up z if not)" : "", l.unit.empty() ? "m" : l.unit,
-               l.unit.empty() ? " (assumed; --unit mm, cm, ft, in if not)" : "");
+    if (!f.axes.empty()) fmt::print("{}: {}\n", f.path, f.axes);
+    if (loaded.files.size() > 1) fmt::print("{}: {}\n", f.path, f.placed);
   }
   fmt::print("model: {:.1f} m east-west, {:.1f} m north-south, {:.1f} m high\n",
              box.hi.x - box.lo.x, box.hi.y - box.lo.y, box.hi.z - box.lo.z);

@@ -54,9 +54,9 @@ Json inputs_json(const Summary& s) {
            {"tz", s.times.zone},
            {"threads", s.threads == 0 ? Json() : Json(s.threads)}};
   if (l.site) {
-    out["site"] = {{"latitude_deg", degrees(l.site->latitude)},
-                   {"longitude_deg", degrees(l.site->longitude)},
-                   {"height_m", l.site->height}};
+    out["site"] = {{"latitude_deg", degrees(l.site->place.latitude)},
+                   {"longitude_deg", degrees(l.site->place.longitude)},
+                   {"height_m", l.site->place.height}};
   }
   return out;
 }

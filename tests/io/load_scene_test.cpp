@@ -3,8 +3,11 @@
     "-Wrestrict"  // GCC 12 warns of "text" + std::string (its bug 105651)
 #endif
 
+#include <fmt/format.h>
+#include <gnomon/io/crs.h>
 #include <gnomon/io/load_scene.h>
 #include <gtest/gtest.h>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -27,6 +30,10 @@ struct Files {
     return folder / name;
   }
 };
+
+// Metres: there and back through the MGI datum shift, whose linearised rotations PROJ inverts to
+// about a millimetre.
+constexpr double kThereAndBack = 2e-3;
 
 LoadOptions without_ground() {
   LoadOptions options;
@@ -139,7 +146,7 @@ TEST(LoadScene, FormatsAreToldByTheirContent) {
   EXPECT_EQ(
       load({file("c.dat", "\xEF\xBB\xBF# hello\n\n  " + kObj)}, without_ground()).files[0].format,
       "OBJ");
-  expect_failure({file("d.ifc", "ISO-10303-21;\nHEADER;\n")}, {}, {"d.ifc", "format is not known"});
+  expect_failure({file("d.xyz", "hello\n")}, {}, {"d.xyz", "format is not known"});
   expect_failure({file("e.json", "oops")}, {}, {"e.json", "not JSON at line 1, column 1"});
 }
 
@@ -201,7 +208,7 @@ TEST(LoadScene, AnLodThatIsNowhereListsTheOnesFound) {
   EXPECT_TRUE(warns(loaded.scene, "Files without surfaces", 1));
 }
 
-TEST(LoadScene, CrsOfFilesAndOptionsMustAgree) {
+TEST(LoadScene, FilesFarApartOrACrsThatNobodyNeedsAreErrors) {
   const Files file;
   LoadOptions options = without_ground();
   const auto dutch = file("nl.json", box("EPSG:28992", "[90000,435000,0]"));
@@ -209,7 +216,7 @@ TEST(LoadScene, CrsOfFilesAndOptionsMustAgree) {
       file("nap.json", box("https://www.opengis.net/def/crs/EPSG/0/7415", "[90000,435000,0]"));
   const auto vienna = file("at.json", box());
   const auto silent = file("none.json", box("", "[1200,340700,40]"));
-  expect_failure({dutch, vienna}, options, {"at.json", "EPSG:31256", "EPSG:28992"});
+  expect_failure({dutch, vienna}, options, {"at.json", "946 km", "nl.json", "--site"});
   options.crs = "EPSG:31255";
   expect_failure({vienna}, options, {"at.json", "EPSG:31256", "--crs", "EPSG:31255"});
   options.crs = "epsg:31256";
@@ -219,6 +226,81 @@ TEST(LoadScene, CrsOfFilesAndOptionsMustAgree) {
   // EPSG:7415 is EPSG:28992 with heights.
   EXPECT_EQ(load({dutch, compound}, without_ground()).scene.frame.crs, "EPSG:28992");
   EXPECT_FALSE(load({silent}, without_ground()).scene.frame.place);
+}
+
+TEST(LoadScene, AFileInAnotherCrsIsMovedIntoTheFirstOnes) {
+  const Files file;
+  const auto utm = reproject("EPSG:31256", "EPSG:32633", {{1205, 340705}}).value()[0];
+  const auto vienna = file("at.json", box("EPSG:31256", "[1200,340700,40]"));
+  const auto other =
+      file("utm.json", box("EPSG:32633", fmt::format("[{:.6f},{:.6f},40]", utm.x, utm.y)));
+  const LoadedScene loaded = load({vienna, other}, without_ground());
+  EXPECT_EQ(loaded.scene.frame.crs, "EPSG:31256");
+  EXPECT_EQ(loaded.files[1].placed, "moved from EPSG:32633 to EPSG:31256");
+  // The second box's corner stands in the middle of the first one (10 m wide).
+  const Vec3 corner = Vec3(1205, 340705, 40) - loaded.scene.frame.origin;
+  double nearest = 1e9;
+  for (const Vec3& v : loaded.scene.mesh.positions) {
+    nearest = std::min(nearest, glm::length(v - corner));
+  }
+  EXPECT_LT(nearest, kThereAndBack);
+}
+
+TEST(LoadScene, AModelAtASiteStandsTurnedByTheConvergenceAndItsNorth) {
+  const Files file;
+  const auto vienna = file("at.json", box("EPSG:31256", "[1200,340700,40]"));
+  const auto stick = file("stick.obj", "v 0 0 0\nv 0 100 0\nv 0 0 10\nf 1 2 3\n");
+  const auto at = locate("EPSG:31256", {1300, 340800, 0}).value();
+  LoadOptions options = without_ground();
+  options.for_files = {
+      {.file = "stick.*", .up = 'z', .north = 30 * kDegree, .site = Site(at.place)}};
+  options.for_files[0].site->place.height = 7;
+  const Scene scene = load({vienna, stick}, options).scene;
+  // Its +y looks 30 degrees west of true north, which is `true_north` east of the grid's.
+  const double azimuth = at.true_north - 30 * kDegree;
+  const Vec3 foot = Vec3(1300, 340800, 7) - scene.frame.origin;
+  const Vec3 end = foot + 100.0 * Vec3(std::sin(azimuth), std::cos(azimuth), 0);
+  double to_foot = 1e9, to_end = 1e9;
+  for (const Vec3& v : scene.mesh.positions) {
+    to_foot = std::min(to_foot, glm::length(v - foot));
+    to_end = std::min(to_end, glm::length(v - end));
+  }
+  EXPECT_LT(to_foot, kThereAndBack);
+  EXPECT_LT(to_end, kThereAndBack);
+  EXPECT_NEAR(scene.frame.true_north, at.true_north, 1e-4) << "the scene's north is the CRS's";
+}
+
+TEST(LoadScene, AModelWithoutAHeightStandsOnTheFootOfItsNeighbours) {
+  const Files file;
+  const auto vienna = file("at.json", box("EPSG:31256", "[1200,340700,40]"));
+  const auto house = file("house.obj", "v 0 0 0\nv 0 100 0\nv 0 0 10\nf 1 2 3\n");
+  LoadOptions options = without_ground();
+  options.up = 'z';
+  options.site = Site(locate("EPSG:31256", {1300, 340800, 0}).value().place, true);
+  const LoadedScene loaded = load({house, vienna}, options);
+  EXPECT_NE(loaded.files[0].placed.find("height 40.00 m"), std::string::npos)
+      << loaded.files[0].placed;
+}
+
+TEST(LoadScene, LocalModelsAtDifferentSitesMeetInTheirUtmZone) {
+  const Files file;
+  const auto a = file("a.obj", kObj), b = file("b.obj", kObj);
+  LoadOptions options = without_ground();
+  options.for_files = {{.file = "a.obj", .site = Site(Place{48 * kDegree, 16 * kDegree, 0})},
+                       {.file = "b.obj", .site = Site(Place{48.001 * kDegree, 16 * kDegree, 0})}};
+  EXPECT_EQ(load({a, b}, options).scene.frame.crs, "EPSG:32633");
+  options.for_files.pop_back();
+  EXPECT_EQ(load({a, b}, options).scene.frame.crs, "") << "they share their coordinates";
+  options.for_files[0].file = "c.obj";
+  expect_failure({a, b}, options, {"c.obj", "a.obj"});
+}
+
+TEST(LoadScene, ASiteForAFileThatHasACrsIsAnError) {
+  const Files file;
+  LoadOptions options = without_ground();
+  options.for_files = {{.file = "at.json", .site = Site(Place{0.8, 0.3, 0})}};
+  expect_failure({file("at.json", box("EPSG:31256", "[1200,340700,40]"))}, options,
+                 {"at.json", "EPSG:31256", "--site"});
 }
 
 TEST(LoadScene, CrsInFeetOrDegreesOrUnknownAreErrors) {

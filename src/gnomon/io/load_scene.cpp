@@ -1,19 +1,18 @@
 #include <fmt/format.h>
 #include <gnomon/core/exact.h>
-#include <gnomon/io/cityjson.h>
 #include <gnomon/io/crs.h>
 #include <gnomon/io/load_scene.h>
 #include <gnomon/io/model.h>
-#include <gnomon/io/obj.h>
+#include <gnomon/io/place_model.h>
 #include <gnomon/io/read_text.h>
+#include <gnomon/io/scene_file.h>
+#include <gnomon/io/scene_ground.h>
 #include <gnomon/io/triangulate.h>
 #include <gnomon/mesh/weld.h>
 #include <gnomon/scene/select.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace gnomon {
@@ -24,84 +23,20 @@ namespace {
 constexpr double kGroundHeights = 3.0;
 constexpr double kLeastGround = 20.0;  // metres, for models that are flat
 
-enum class Format { kCityJson, kObj };
+// Files farther apart than this are not one scene (metres): a scene is flat and has one sun, but
+// over 100 km the Earth falls away by 785 m and the sun stands almost a degree elsewhere.
+constexpr double kFarthestApart = 100e3;
 
-// By what is in the file; by its extension only where the text could be anything.
-std::optional<Format> format_of(std::string_view text, const std::filesystem::path& path) {
-  const std::size_t start = text.find_first_not_of(" \t\r\n");
-  if (start != std::string_view::npos && text[start] == '{') return Format::kCityJson;
-  if (text.find('\0') != std::string_view::npos) return std::nullopt;
-  while (!text.empty()) {  // an OBJ's first line that is no comment starts with one of its keywords
-    const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
-    std::string_view line = text.substr(0, end);
-    text.remove_prefix(std::min(text.size(), end + 1));
-    line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
-    if (line.empty() || line[0] == '#') continue;
-    const std::string_view word = line.substr(0, line.find_first_of(" \t"));
-    constexpr std::array<std::string_view, 14> kKeywords = {
-        "v", "vn", "vt", "vp", "f", "o", "g", "s", "l", "p", "mtllib", "usemtl", "cstype", "mg"};
-    if (std::find(kKeywords.begin(), kKeywords.end(), word) != kKeywords.end()) return Format::kObj;
-    break;
-  }
-  std::string extension = path.extension().string();
-  for (char& c : extension) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-  if (extension == ".obj") return Format::kObj;
-  if (extension == ".json" || extension == ".jsonl") return Format::kCityJson;
-  return std::nullopt;
-}
-
-std::optional<double> metres_per(const std::string& unit) {
-  if (unit.empty() || unit == "m") return 1.0;
-  if (unit == "cm") return 0.01;
-  if (unit == "mm") return 0.001;
-  if (unit == "ft") return 0.3048;
-  if (unit == "in") return 0.0254;
-  return std::nullopt;
-}
-
-Result<Model> read_model(const std::filesystem::path& path, const LoadOptions& options) {
-  auto text = read_text(path);
-  if (!text) return text.error();
-  const auto format = format_of(text.value(), path);
-  if (!format) {
-    return Error{fmt::format("{}: the format is not known; CityJSON, CityJSONSeq and OBJ are read.",
-                             path.string())};
-  }
-  if (*format == Format::kObj) {
-    return read_obj(text.value(), path.string(), options.up ? options.up : 'y',
-                    *metres_per(options.unit));
-  }
-  return read_cityjson(text.value(), path.string(), options.lod);
-}
-
-std::optional<Error> check_options(const LoadOptions& options) {
-  if (options.up != 0 && options.up != 'y' && options.up != 'z') {
-    return Error{"--up must be y or z."};
-  }
-  if (!metres_per(options.unit)) {
-    return Error{
-        fmt::format("--unit {} is not known; use m, cm, mm, ft or in.", in_quotes(options.unit))};
-  }
-  if (options.north && !std::isfinite(*options.north)) {
-    return Error{"--north must be a finite number of degrees."};
-  }
-  if (const auto& e = options.ground_extent) {
-    if (!(e->x0 < e->x1 && e->y0 < e->y1)) {
-      return Error{"the ground's extent must have x0 < x1 and y0 < y1."};
-    }
-  }
-  return std::nullopt;
-}
-
-std::optional<Error> check_lod(const std::vector<Model>& models, const LoadOptions& options) {
+std::optional<Error> check_lod(const std::vector<SceneFile>& files, const LoadOptions& options) {
   if (options.lod.empty()) return std::nullopt;
-  std::string found, files;
+  std::string found, names;
   bool any = false, city = false;
-  for (const Model& m : models) {
-    if (m.report.format == "OBJ") continue;
+  for (const SceneFile& f : files) {
+    if (f.format != FileFormat::city_json) continue;
+    const Model& m = *f.model;
     city = true;
     any = any || !m.polygons.empty();
-    files += (files.empty() ? "" : ", ") + m.report.path;
+    names += (names.empty() ? "" : ", ") + m.report.path;
     for (const std::string& lod : m.report.lods) {
       if (fmt::format(", {},", found).find(fmt::format(", {},", lod)) == std::string::npos) {
         found += (found.empty() ? "" : ", ") + lod;
@@ -109,7 +44,7 @@ std::optional<Error> check_lod(const std::vector<Model>& models, const LoadOptio
     }
   }
   if (!city || any) return std::nullopt;
-  return Error{fmt::format("{}: there is no geometry of LoD {}; found: {}.", files,
+  return Error{fmt::format("{}: there is no geometry of LoD {}; found: {}.", names,
                            in_quotes(options.lod), found.empty() ? "none" : found)};
 }
 
@@ -132,16 +67,8 @@ std::optional<Error> check_coordinates(const Model& m) {
 }
 
 // The centre of the model's box, in whole metres, so that coordinates in files stay recognisable.
-Vec3 origin_of(const Model& m) {
-  Vec3 low(std::numeric_limits<double>::infinity()), high(-low);
-  for (const Vec3& v : m.vertices) {
-    const Vec3 at = v * m.scale + m.translate;
-    for (int k = 0; k < 3; ++k) {
-      low[k] = std::min(low[k], at[k]);
-      high[k] = std::max(high[k], at[k]);
-    }
-  }
-  const Vec3 middle = (low + high) / 2.0;
+Vec3 origin_of(const ModelBox& box) {
+  const Vec3 middle = (box.low + box.high) / 2.0;
   return Vec3(std::round(middle.x), std::round(middle.y), std::round(middle.z)) +
          Vec3(0.0);  // no -0
 }
@@ -153,44 +80,6 @@ bool agree(const std::string& a, const std::string& b, const Vec3& at) {
   const auto in_a = locate(a, at), in_b = locate(b, at);
   return in_a && in_b && in_a.value().place.latitude == in_b.value().place.latitude &&
          in_a.value().place.longitude == in_b.value().place.longitude;
-}
-
-// The one CRS of all files and of the options; empty if nobody names one.
-Result<std::string> common_crs(const std::vector<Model>& models, const LoadOptions& options,
-                               const Vec3& origin) {
-  std::string crs = short_crs(options.crs), from = "--crs";
-  for (const Model& m : models) {
-    if (m.report.crs.empty()) continue;
-    if (crs.empty()) {
-      crs = m.report.crs;
-      from = m.report.path;
-    } else if (!agree(crs, m.report.crs, origin)) {
-      return Error{fmt::format(
-          "{}: its CRS is {}, but {} says {}; reproject one of them, or leave out --crs.",
-          m.report.path, m.report.crs, from, crs)};
-    }
-  }
-  return crs;
-}
-
-// CRS, place and true north of the scene, whose origin is known.
-std::optional<Error> place_scene(Frame& frame, const LoadOptions& options) {
-  if (!frame.crs.empty()) {
-    const auto found = locate(frame.crs, frame.origin);
-    if (!found) return found.error();
-    const CrsPlace& at = found.value();
-    if (at.metres_per_unit != 1.0) {
-      return Error{fmt::format(
-          "the CRS {} ({}) is not in metres (its unit is {} m), which Gnomon does not read yet; "
-          "reproject the model to a CRS in metres.",
-          frame.crs, at.name, at.metres_per_unit)};
-    }
-    frame.place = at.place;
-    frame.true_north = at.true_north;
-  }
-  if (options.site) frame.place = *options.site;
-  if (options.north) frame.true_north = *options.north;
-  return std::nullopt;
 }
 
 // Appends the model's triangles to the scene.
@@ -271,45 +160,283 @@ std::string names_of(const std::vector<std::filesystem::path>& paths) {
   return names;
 }
 
+// What a local file says, or is told, of its site and of true north.
+std::optional<Site> site_of(const SceneFile& f) {
+  if (f.told.site) return f.told.site;
+  if (f.model->site) return Site(*f.model->site);
+  return std::nullopt;
+}
+std::optional<double> north_of(const SceneFile& f) {
+  return f.told.north ? f.told.north : f.model->north;
+}
+
+bool is_read_first(const SceneFile& f) {
+  return f.format != FileFormat::footprints && f.format != FileFormat::raster;
+}
+
+// Footprints and heights above ground need a ground to stand on, so that all else comes first.
+bool stands_on_others(const SceneFile& f) {
+  return f.format == FileFormat::footprints || f.above_ground;
+}
+
+// The CRS of a file's coordinates: its own, or the one it is told; empty for a local model. A local
+// format that has a site is not told the CRS that is meant for the others.
+std::string crs_of(const SceneFile& f, bool others_georeferenced) {
+  if (!f.model->report.crs.empty()) return f.model->report.crs;
+  if (f.crs_of_its_own) return short_crs(f.told.crs);
+  if (!is_georeferenced(f.format) && (f.site_of_its_own || (site_of(f) && others_georeferenced))) {
+    return "";
+  }
+  return short_crs(f.told.crs);
+}
+
+// True if some file has the coordinates of a map, so that local ones have to be placed among them.
+// What is not read yet are maps.
+bool has_georeferenced(const std::vector<SceneFile>& files) {
+  return std::any_of(files.begin(), files.end(), [](const SceneFile& f) {
+    return !f.model || !f.model->report.crs.empty() || f.crs_of_its_own ||
+           (is_georeferenced(f.format) && !f.told.crs.empty());
+  });
+}
+
+// A CRS in which a scene can be: the one given, or for maps in degrees the UTM zone of the point.
+// Other models have one unit for all three axes, which cannot be degrees.
+Result<std::string> projected(const std::string& crs, const SceneFile& f, const Vec3& at) {
+  if (!is_georeferenced(f.format) || !is_geographic_crs(crs)) return crs;
+  return utm_crs(Place{at.y * kDegree, at.x * kDegree, 0});
+}
+
+// A scene under construction.
+struct Builder {
+  LoadedScene loaded;
+  std::string crs;              // empty: local coordinates
+  std::optional<ModelBox> box;  // of what is in it, CRS coordinates
+  std::string first;            // the file that came first, for messages
+};
+
+std::optional<Error> check_near(const ModelBox& a, const ModelBox& b, const std::string& path,
+                                const std::string& first) {
+  const double dx = std::max({a.low.x - b.high.x, 0.0, b.low.x - a.high.x});
+  const double dy = std::max({a.low.y - b.high.y, 0.0, b.low.y - a.high.y});
+  if (std::hypot(dx, dy) <= kFarthestApart) return std::nullopt;
+  return Error{fmt::format(
+      "{}: it lies {:.0f} km from {}: say where it stands with --site {}=LAT,LON or --crs "
+      "{}=EPSG:..., or leave it out.",
+      path, std::hypot(dx, dy) / 1000, first, std::filesystem::path(path).filename().string(),
+      std::filesystem::path(path).filename().string())};
+}
+
+std::optional<Error> add_file(Builder& b, SceneFile& f) {
+  Scene& scene = b.loaded.scene;
+  Model& m = *f.model;
+  if (auto error = check_coordinates(m)) return error;
+  if (const auto box = box_of(m)) {
+    if (!b.box) {
+      scene.frame.origin = origin_of(*box);
+      b.box = box;
+      b.first = m.report.path;
+    } else {
+      if (auto error = check_near(*b.box, *box, m.report.path, b.first)) return error;
+      for (int k = 0; k < 3; ++k) {
+        b.box->low[k] = std::min(b.box->low[k], box->low[k]);
+        b.box->high[k] = std::max(b.box->high[k], box->high[k]);
+      }
+    }
+  } else {
+    warn(scene.warnings, "Files without surfaces.", m.report.path);
+  }
+  add_model(scene, m);
+  return std::nullopt;
+}
+
+// The CRS of the scene, or none; what a raster or footprints alone have is known once they are
+// read.
+Result<std::string> scene_crs(const std::vector<SceneFile>& files, bool georeferenced) {
+  std::optional<Site> site;
+  std::optional<double> north;
+  bool differ = false;
+  for (const SceneFile& f : files) {
+    if (!f.model) continue;
+    const std::string crs = crs_of(f, georeferenced);
+    if (!crs.empty()) {
+      const auto box = box_of(*f.model);
+      return projected(crs, f, box ? (box->low + box->high) / 2.0 : Vec3(0));
+    }
+    const auto here = site_of(f);
+    if (!here) continue;
+    const double turned = north_of(f).value_or(0);
+    if (site && (here->place.latitude != site->place.latitude ||
+                 here->place.longitude != site->place.longitude || turned != *north)) {
+      differ = true;
+    }
+    if (!site) site = here, north = turned;
+  }
+  return differ ? utm_crs(site->place) : std::string();
+}
+
+// A model that is read goes to its place among the others.
+std::optional<Error> place(SceneFile& f, const Builder& b, bool georeferenced,
+                           const GroundAt& ground) {
+  Model& m = *f.model;
+  const std::string crs = crs_of(f, georeferenced);
+  if (!crs.empty()) {
+    if (f.site_of_its_own) {
+      return Error{fmt::format(
+          "{}: its coordinates are in {}, so that it cannot stand at a site as well; leave out its "
+          "--site.",
+          m.report.path, crs)};
+    }
+    if (b.crs.empty()) return std::nullopt;
+    const auto box = box_of(m);
+    if (!box || agree(crs, b.crs, (box->low + box->high) / 2.0)) {
+      m.report.placed = "coordinates of " + crs;
+      return std::nullopt;
+    }
+    m.report.placed = fmt::format("moved from {} to {}", crs, b.crs);
+    return move_to_crs(m, crs, b.crs);
+  }
+  const auto site = site_of(f);
+  if (b.crs.empty() || !site) {
+    m.report.placed = b.crs.empty() ? "local coordinates" : "taken as coordinates of " + b.crs;
+    return std::nullopt;
+  }
+  return place_at_site(m, *site, north_of(f).value_or(0), b.crs, ground);
+}
+
+// Reads and places all files, those that stand on others last.
+std::optional<Error> build(Builder& b, std::vector<SceneFile>& files, const LoadOptions& options) {
+  for (SceneFile& f : files) {
+    if (!is_read_first(f)) continue;
+    auto model = read_model(f, options, "", {});
+    if (!model) return model.error();
+    f.model = std::move(model).value();
+    if (auto error = check_coordinates(*f.model)) return error;
+  }
+  if (auto error = check_lod(files, options)) return error;
+  const bool georeferenced = has_georeferenced(files);
+  auto crs = scene_crs(files, georeferenced);
+  if (!crs) return crs.error();
+  b.crs = std::move(crs).value();
+
+  // Files that know their coordinates come first, then those that are put at a site, then those
+  // that stand on the others.
+  const auto rank = [&](const SceneFile& f) {
+    const bool local = f.model && crs_of(f, georeferenced).empty();
+    const auto site = local ? site_of(f) : std::nullopt;
+    return stands_on_others(f) || (site && site->on_ground && georeferenced) ? 2 : site ? 1 : 0;
+  };
+  std::vector<int> ranks;
+  for (const SceneFile& f : files) ranks.push_back(rank(f));
+  for (const int now : {0, 1, 2}) {
+    const GroundAt ground = now == 2 ? ground_of(b.loaded.scene) : GroundAt();
+    for (std::size_t k = 0; k < files.size(); ++k) {
+      SceneFile& f = files[k];
+      if (ranks[k] != now) continue;
+      if (!f.model) {
+        auto model = read_model(f, options, b.crs, ground);
+        if (!model) return model.error();
+        f.model = std::move(model).value();
+        if (b.crs.empty()) b.crs = f.model->report.crs;
+      } else if (b.crs.empty() && georeferenced && site_of(f)) {
+        b.crs = utm_crs(site_of(f)->place);
+      }
+      if (auto error = place(f, b, georeferenced, ground)) return error;
+      if (auto error = add_file(b, f)) return error;
+    }
+  }
+  return std::nullopt;
+}
+
+// A CRS that was named for the files that name none, where all of them do.
+std::optional<Error> check_crs_used(const std::vector<SceneFile>& files, const Builder& b,
+                                    const LoadOptions& options) {
+  if (options.crs.empty()) return std::nullopt;
+  for (const SceneFile& f : files) {
+    if (f.model->report.crs.empty()) return std::nullopt;
+  }
+  const std::string given = short_crs(options.crs);
+  if (b.box && agree(given, b.crs, (b.box->low + b.box->high) / 2.0)) return std::nullopt;
+  return Error{fmt::format("{}: its CRS is {}, but --crs says {}; leave out --crs.",
+                           files[0].model->report.path, files[0].model->report.crs, given)};
+}
+
+// CRS, place and true north of the scene, whose origin is known. In a scene with a CRS, the site
+// and north of local models have done their work; where there is no local model they override the
+// CRS's.
+std::optional<Error> place_scene(LoadedScene& loaded, const std::vector<SceneFile>& files,
+                                 bool georeferenced, const LoadOptions& options) {
+  Frame& frame = loaded.scene.frame;
+  bool any_at_site = false;
+  for (const SceneFile& f : files) {
+    const bool local = crs_of(f, georeferenced).empty() && f.model->report.crs.empty();
+    any_at_site = any_at_site || (local && site_of(f));
+  }
+  if (!frame.crs.empty()) {
+    const auto found = locate(frame.crs, frame.origin);
+    if (!found) return found.error();
+    const CrsPlace& at = found.value();
+    if (at.metres_per_unit != 1.0) {
+      return Error{fmt::format(
+          "the CRS {} ({}) is not in metres (its unit is {} m), which Gnomon does not read yet; "
+          "reproject the model to a CRS in metres.",
+          frame.crs, at.name, at.metres_per_unit)};
+    }
+    frame.place = at.place;
+    frame.true_north = at.true_north;
+    loaded.place_by = "the CRS";
+    loaded.north_by = "meridian convergence of the CRS";
+    if (any_at_site) return std::nullopt;
+    if (options.site) frame.place = options.site->place, loaded.place_by = "--site";
+    if (options.north) frame.true_north = *options.north, loaded.north_by = "--north";
+    return std::nullopt;
+  }
+  for (const SceneFile& f : files) {  // all local ones that say something agree
+    if (const auto site = site_of(f); site && !frame.place) {
+      frame.place = site->place;
+      loaded.place_by = f.told.site ? "--site" : f.model->report.path;
+    }
+    if (const auto north = north_of(f)) {
+      frame.true_north = *north;
+      loaded.north_by = f.told.north ? "--north" : f.model->report.path;
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 Result<LoadedScene> load_scene(const std::vector<std::filesystem::path>& paths,
                                const LoadOptions& options) {
   if (paths.empty()) return Error{"no model file was given."};
-  if (auto error = check_options(options)) return *error;
-
-  std::vector<Model> models;
-  for (const auto& path : paths) {
-    auto model = read_model(path, options);
-    if (!model) return model.error();
-    models.push_back(std::move(model).value());
-    if (auto error = check_coordinates(models.back())) return *error;
+  if (const auto& e = options.ground_extent) {
+    if (!(e->x0 < e->x1 && e->y0 < e->y1)) {
+      return Error{"the ground's extent must have x0 < x1 and y0 < y1."};
+    }
   }
-  if (auto error = check_lod(models, options)) return *error;
+  auto found = scene_files(paths, options);
+  if (!found) return found.error();
+  std::vector<SceneFile> files = std::move(found).value();
 
-  LoadedScene loaded;
+  Builder builder;
+  if (auto error = build(builder, files, options)) return *error;
+  LoadedScene& loaded = builder.loaded;
   Scene& scene = loaded.scene;
-  const auto first = std::find_if(models.begin(), models.end(),
-                                  [](const Model& m) { return !m.polygons.empty(); });
-  if (first == models.end()) {
+  if (!builder.box) {
     return Error{fmt::format("{}: there are no surfaces in it, so nothing that casts a shadow.",
                              names_of(paths))};
   }
-  scene.frame.origin = origin_of(*first);
-  auto crs = common_crs(models, options, scene.frame.origin);
-  if (!crs) return crs.error();
-  scene.frame.crs = std::move(crs).value();
-  if (auto error = place_scene(scene.frame, options)) return *error;
+  if (auto error = check_crs_used(files, builder, options)) return *error;
+  scene.frame.crs = builder.crs;
+  if (auto error = place_scene(loaded, files, has_georeferenced(files), options)) return *error;
 
-  bool any_obj = false;
-  for (Model& m : models) {
-    if (m.polygons.empty()) warn(scene.warnings, "Files without surfaces.", m.report.path);
-    any_obj = any_obj || m.report.format == "OBJ";
-    add_model(scene, m);
-    loaded.files.push_back(std::move(m.report));
+  bool any_local = false;
+  for (SceneFile& f : files) {
+    any_local = any_local || !is_georeferenced(f.format);
+    loaded.files.push_back(std::move(f.model->report));
   }
-  if (!any_obj && (options.up || !options.unit.empty())) {
-    warn(scene.warnings, "--up and --unit were not used: CityJSON files say these themselves.", "");
+  if (!any_local && (options.up || !options.unit.empty())) {
+    warn(scene.warnings,
+         "--up and --unit were not used: these files say themselves what their axes are.", "");
   }
 
   loaded.zero_area_triangles = weld_scene(scene);

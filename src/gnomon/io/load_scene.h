@@ -8,47 +8,73 @@
 
 #include <gnomon/core/place.h>
 #include <gnomon/core/result.h>
+#include <gnomon/io/file_report.h>
+#include <gnomon/io/footprint_layer.h>
 #include <gnomon/io/ground.h>
+#include <gnomon/io/surface_raster.h>
 #include <gnomon/scene/scene.h>
 
 namespace gnomon {
 
-struct LoadOptions {
-  std::string lod = {};   // CityJSON level of detail to take; empty: per object the highest it has
-  char up = 0;            // 'y' or 'z': up axis of formats that do not say (OBJ); 0: y for OBJ
-  std::string unit = {};  // "m", "mm", "cm", "ft", "in" of formats that do not say; empty: m
-  std::optional<double> north =
-      {};                // radians clockwise from the scene's +y to true north; overrides the CRS
-  std::string crs = {};  // where the file does not say (a file's own CRS that differs is an error)
-  std::optional<Place> site =
-      {};                       // where there is no CRS; overrides the place (not the coordinates)
-  std::string ground = "auto";  // see GroundOptions::mode
-  std::optional<Bounds2> ground_extent = {};  // model CRS coordinates; empty: the model's box and 3
-                                              // times its height around it
-  std::vector<std::string> cast = {}, no_cast = {}, receive = {};  // globs, see scene/select.h
+// Where the origin of a model in local coordinates stands.
+struct Site {
+  Place place;
+  bool on_ground = false;  // the height is not known: among models that are placed by a CRS it
+                           // stands on the ground below it
+  Site() = default;
+  Site(const Place& at, bool stands_on_ground = false)  // NOLINT: converts by design
+      : place(at), on_ground(stands_on_ground) {}
 };
 
-// What was read, per file, for inspect and summary.json.
-struct FileReport {
-  std::string path, format;       // "CityJSON 2.0", "CityJSONSeq 1.1", "OBJ"
-  std::string crs;                // as short_crs; empty where the file has none
-  std::vector<std::string> lods;  // found in the file
-  std::string lod_used;           // one, or "highest of each object"
-  std::size_t objects = 0;        // that carry geometry
-  std::size_t surfaces = 0;       // polygons taken
-  std::size_t triangles = 0;      // before welding
-  std::size_t stored_twice =
-      0;  // polygons that the same object holds a second time at the same LoD; counted once
+// What some files of a scene need to be told, where others do not. Empty members say nothing.
+struct FileOptions {
+  std::string file = {};  // glob over the file's name or its path as given
+  char up = 0;
+  std::string unit = {};
+  std::optional<double> north = {};
+  std::string crs = {};
+  std::optional<Site> site = {};
+};
+
+struct LoadOptions {
+  std::string lod = {};  // CityJSON level of detail to take; empty: per object the highest it has
+  char up = 0;  // 'y' or 'z': up axis of formats that do not say; 0: the format's usual one
+  std::string unit = {};  // "m", "mm", "cm", "ft", "in" of formats that do not say; empty: m
+  // Radians clockwise from the +y of local coordinates to true north; in a scene where all files
+  // have a CRS, of the scene's +y, and overrides the CRS.
+  std::optional<double> north = {};
+  std::string crs = {};  // of files that do not say (if all say, another one is an error)
+  // Of models without CRS. Overrides the place (not the coordinates) where every file has a CRS.
+  std::optional<Site> site = {};
+  std::vector<FileOptions> for_files = {};  // stronger than the above; the last that matches wins
+  FootprintOptions footprints = {};
+  RasterMesh surface = RasterMesh::triangles;
+  std::vector<std::string> above_ground =
+      {};                                     // globs over rasters' names: heights above the ground
+  std::string ground = "auto";                // see GroundOptions::mode
+  std::optional<Bounds2> ground_extent = {};  // scene CRS coordinates; empty: the model's box and 3
+                                              // times its height around it
+  std::vector<std::string> cast = {}, no_cast = {}, receive = {};  // globs, see scene/select.h
 };
 
 struct LoadedScene {
   Scene scene;
   std::vector<FileReport> files;
   GroundReport ground;
+  // Who said where the scene stands and where true north is, for people: "--site", "house.ifc",
+  // "meridian convergence of the CRS"; place_by is empty where nobody did.
+  std::string place_by, north_by = "assumed; --north DEG says otherwise";
   std::size_t zero_area_triangles = 0;
 };
 
-// Errors name file and element. Nothing at all to cast a shadow is an error.
+// The scene's CRS is that of the first file that has one (a geographic one gives way to its UTM
+// zone); files in other CRSs are moved into it, horizontally; local models are put at their site,
+// turned by the meridian convergence. Footprints, heights above ground and models without a height
+// are placed last, on the ground of the others. A scene without any CRS keeps local coordinates; if
+// its files stand at different sites, it gets the UTM zone of the first. docs/placing.md.
+//
+// Errors name file and element. Nothing at all to cast a shadow is an error, and so are files that
+// lie more than 100 km apart.
 Result<LoadedScene> load_scene(const std::vector<std::filesystem::path>& models,
                                const LoadOptions& options);
 

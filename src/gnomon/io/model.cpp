@@ -61,8 +61,9 @@ std::string name_of(const Model& model, const ModelPolygon& polygon) {
   if (model.report.format == "OBJ") {
     return fmt::format("{}: line {}", model.report.path, polygon.number);
   }
-  return fmt::format("{}: object \"{}\", polygon {}", model.report.path,
-                     model.surfaces[polygon.surface].object, polygon.number);
+  const std::string& object = model.surfaces[polygon.surface].object;
+  if (object.empty()) return fmt::format("{}: polygon {}", model.report.path, polygon.number);
+  return fmt::format("{}: object \"{}\", polygon {}", model.report.path, object, polygon.number);
 }
 
 }  // namespace gnomon

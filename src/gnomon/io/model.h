@@ -10,9 +10,10 @@
 #include <unordered_map>
 #include <vector>
 
+#include <gnomon/core/place.h>
 #include <gnomon/core/vec.h>
 #include <gnomon/core/warnings.h>
-#include <gnomon/io/load_scene.h>
+#include <gnomon/io/file_report.h>
 #include <gnomon/scene/scene.h>
 
 namespace gnomon {

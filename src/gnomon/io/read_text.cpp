@@ -3,10 +3,17 @@
 
 #include <algorithm>
 #include <fstream>
+#include <limits>
 
 namespace gnomon {
 
-Result<std::string> read_text(const std::filesystem::path& path) {
+namespace {
+
+Error is_empty(const std::string& name) {
+  return {fmt::format("{}: the file is empty; export the model again.", name)};
+}
+
+Result<std::string> read_bytes(const std::filesystem::path& path, std::size_t most) {
   const std::string name = path.string();
   std::error_code code;
   const auto status = std::filesystem::status(path, code);
@@ -20,23 +27,36 @@ Result<std::string> read_text(const std::filesystem::path& path) {
   std::string text;
   if (file) {
     const auto size = std::filesystem::file_size(path, code);
-    if (!code) text.reserve(size);
+    if (!code) text.reserve(std::min<std::uintmax_t>(size, most));
     char block[1 << 16];
-    while (file.read(block, sizeof block) || file.gcount() > 0) {
+    while (text.size() < most && (file.read(block, sizeof block) || file.gcount() > 0)) {
       text.append(block, static_cast<std::size_t>(file.gcount()));
     }
   }
-  if (!file.eof()) {
+  if (!file.eof() && text.size() < most) {
     return Error{fmt::format("{}: cannot be read; check its permissions.", name)};
   }
+  if (text.size() > most) text.resize(most);
+  if (text.empty()) return is_empty(name);
+  return text;
+}
+
+}  // namespace
+
+Result<std::string> read_start(const std::filesystem::path& path, std::size_t bytes) {
+  return read_bytes(path, bytes);
+}
+
+Result<std::string> read_text(const std::filesystem::path& path) {
+  auto read = read_bytes(path, std::numeric_limits<std::size_t>::max());
+  if (!read) return read;
+  std::string& text = read.value();
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
-    return Error{fmt::format("{}: is UTF-16 text; save it as UTF-8.", name)};
+    return Error{fmt::format("{}: is UTF-16 text; save it as UTF-8.", path.string())};
   }
   if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
-  if (text.find_first_not_of(" \t\r\n") == std::string::npos) {
-    return Error{fmt::format("{}: the file is empty; export the model again.", name)};
-  }
-  return text;
+  if (text.find_first_not_of(" \t\r\n") == std::string::npos) return is_empty(path.string());
+  return read;
 }
 
 std::size_t line_of(std::string_view text, std::size_t offset) {

@@ -14,6 +14,10 @@ namespace gnomon {
 // empty, UTF-16 (says to save it as UTF-8).
 Result<std::string> read_text(const std::filesystem::path& path);
 
+// The first `bytes` of the file, or all of it. Errors: no such file, a folder, unreadable, no bytes
+// at all.
+Result<std::string> read_start(const std::filesystem::path& path, std::size_t bytes);
+
 // Line (from 1) of the byte at `offset`; lines end with LF, CR LF or CR.
 std::size_t line_of(std::string_view text, std::size_t offset);
 

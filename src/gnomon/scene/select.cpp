@@ -1,59 +1,15 @@
+#include <gnomon/core/nearest_names.h>
 #include <gnomon/scene/select.h>
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <set>
-#include <utility>
 
 namespace gnomon {
 namespace {
 
 std::array<std::string_view, 4> names_of(const Surface& s) {
   return {s.object, s.group, s.material, s.semantic};
-}
-
-std::string lower(std::string_view text) {
-  std::string out(text);
-  for (char& c : out) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return out;
-}
-
-// Levenshtein: insertions, deletions and replacements that make b of a.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i + 1);
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t above = row[j + 1];
-      row[j + 1] = std::min({above + 1, row[j] + 1, diagonal + (a[i] == b[j] ? 0 : 1)});
-      diagonal = above;
-    }
-  }
-  return row.back();
-}
-
-// The names nearest to a glob that matched nothing, at most three, the nearest first. Case and
-// wildcards do not count.
-std::string nearest_names(std::string_view glob, const std::set<std::string_view>& names) {
-  constexpr std::size_t kMost = 3;
-  std::string wanted = lower(glob);
-  std::erase_if(wanted, [](char c) { return c == '*' || c == '?'; });
-  std::vector<std::pair<std::size_t, std::string_view>> ranked;
-  for (const std::string_view name : names) {
-    const std::string low = lower(name);
-    const bool inside = !wanted.empty() && low.find(wanted) != std::string::npos;
-    ranked.emplace_back(inside ? 0 : edit_distance(wanted, low), name);
-  }
-  std::sort(ranked.begin(), ranked.end());
-  std::string list;
-  for (std::size_t k = 0; k < std::min(kMost, ranked.size()); ++k) {
-    list += (k ? ", \"" : "\"") + std::string(ranked[k].second) + '"';
-  }
-  return list;
 }
 
 }  // namespace

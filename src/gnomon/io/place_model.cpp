@@ -1,0 +1,85 @@
+#include <fmt/format.h>
+#include <gnomon/io/crs.h>
+#include <gnomon/io/place_model.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace gnomon {
+
+std::optional<Error> move_to_crs(Model& model, const std::string& from, const std::string& to) {
+  std::vector<Vec2> flat;
+  flat.reserve(model.vertices.size());
+  for (const Vec3& v : model.vertices) {
+    const Vec3 p = v * model.scale + model.translate;
+    flat.push_back({p.x, p.y});
+  }
+  const auto moved = reproject(from, to, std::move(flat));
+  if (!moved) return Error{model.report.path + ": " + moved.error().message};
+  for (std::size_t k = 0; k < model.vertices.size(); ++k) {
+    const double z = model.vertices[k].z * model.scale.z + model.translate.z;
+    model.vertices[k] = Vec3(moved.value()[k].x, moved.value()[k].y, z);
+  }
+  model.scale = Vec3(1);
+  model.translate = Vec3(0);
+  return std::nullopt;
+}
+
+std::optional<Error> place_at_site(Model& model, const Site& site, double north,
+                                   const std::string& crs, const GroundAt& ground) {
+  const auto at = reproject("OGC:CRS84", crs,
+                            {{site.place.longitude / kDegree, site.place.latitude / kDegree}});
+  if (!at) return Error{model.report.path + ": its site: " + at.error().message};
+  const Vec2 p = at.value()[0];
+  const auto grid = locate(crs, Vec3(p, 0));
+  if (!grid) return Error{model.report.path + ": its site: " + grid.error().message};
+
+  double height = site.place.height;
+  const char* why = "as given";
+  if (site.on_ground) {
+    const auto below = ground ? ground(p.x, p.y) : std::nullopt;
+    height = below.value_or(0.0);
+    why = below ? "of the ground there" : "as none is known";
+    if (!below) {
+      warn(model.warnings,
+           "No height is known where this model stands, so its origin is at height 0; give the "
+           "height "
+           "with --site LAT,LON,HEIGHT.",
+           model.report.path);
+    }
+  }
+  // Clockwise from the grid's +y to the model's +y.
+  const double turn = grid.value().true_north - north;
+  const double c = std::cos(turn), s = std::sin(turn);
+  for (Vec3& v : model.vertices) {
+    const Vec3 m = v * model.scale + model.translate;
+    v = Vec3(m.x * c + m.y * s, m.y * c - m.x * s, m.z);
+  }
+  model.scale = Vec3(1);
+  model.translate = Vec3(p, height);
+  model.report.placed = fmt::format(
+      "local origin at {:.6f}, {:.6f} ({:.3f} east, {:.3f} north in {}), height {:.2f} m {}, "
+      "turned by "
+      "{:.3f} degrees clockwise",
+      site.place.latitude / kDegree, site.place.longitude / kDegree, p.x, p.y, short_crs(crs),
+      height, why, turn / kDegree);
+  return std::nullopt;
+}
+
+std::optional<ModelBox> box_of(const Model& model) {
+  ModelBox box{Vec3(std::numeric_limits<double>::infinity()),
+               Vec3(-std::numeric_limits<double>::infinity())};
+  for (const std::uint32_t corner : model.corners) {
+    const Vec3 p = model.vertices[corner] * model.scale + model.translate;
+    for (int k = 0; k < 3; ++k) {
+      box.low[k] = std::min(box.low[k], p[k]);
+      box.high[k] = std::max(box.high[k], p[k]);
+    }
+  }
+  if (model.corners.empty()) return std::nullopt;
+  return box;
+}
+
+}  // namespace gnomon
