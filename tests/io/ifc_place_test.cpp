@@ -139,6 +139,9 @@ TEST(IfcByAssimp, FeetComeAsIfTheyWereMetres) {
   expect_box(assimp_box(file.text()), {1, 0, -7}, {11, 3, -2});
   EXPECT_NEAR(read(file).metres_per_unit, 0.3048, 1e-15);
   EXPECT_NEAR(read(file).assimp_metres_per_unit, 0.3048, 1e-15);
+  Model model = local_model();
+  place_ifc(model, read(file));
+  EXPECT_NEAR(placed(model, 1).x, 11 * 0.3048, 1e-12);
 }
 
 TEST(IfcByAssimp, TrueNorthSiteAndMapConversionChangeNothing) {

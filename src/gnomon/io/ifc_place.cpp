@@ -214,6 +214,8 @@ Result<IfcPlace> read_ifc_place(std::string_view text, const std::string& path) 
 
 void place_ifc(Model& model, const IfcPlace& place) {
   append(model.warnings, place.warnings);
+  model.scale *= place.assimp_metres_per_unit;
+  model.translate *= place.assimp_metres_per_unit;
   if (!place.conversion) {
     model.site = place.site;
     model.north = place.true_north;

@@ -50,11 +50,12 @@ struct IfcPlace {
 // empty, the latter with a warning.
 Result<IfcPlace> read_ifc_place(std::string_view text, const std::string& path);
 
-// Places a model read in local metres, z up. With a conversion, its vertices become coordinates of
-// the map and report.crs is set; TrueNorth and the site are not used, since the conversion has them
-// in it (as IFC 4.3 asks: never rotated twice). Where the conversion's CRS is not known (empty),
-// the vertices become coordinates of the map and model.site and model.north are set, too. Without a
-// conversion, only model.site and model.north are set. Appends the warnings to the model's.
+// Places a model as Assimp gave it, turned z up: multiplies it by assimp_metres_per_unit, so its
+// reader must not. With a conversion, its vertices become coordinates of the map and report.crs is
+// set; TrueNorth and the site are not used, since the conversion has them in it (as IFC 4.3 asks:
+// never turned twice). Where the conversion's CRS is not known (empty), the vertices become
+// coordinates of the map and model.site and model.north are set, too. Without a conversion, only
+// model.site and model.north are set. Appends the warnings to the model's. Call it once.
 void place_ifc(Model& model, const IfcPlace& place);
 
 }  // namespace gnomon
