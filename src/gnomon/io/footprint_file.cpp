@@ -1,0 +1,383 @@
+#include <gnomon/io/footprint_file.h>
+
+#include <cpl_conv.h>
+#include <cpl_error.h>
+#include <cpl_string.h>
+#include <fmt/format.h>
+#include <gdal.h>
+#include <ogr_api.h>
+#include <ogr_srs_api.h>
+#include <ogrsf_frmts.h>
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+
+#include <gnomon/io/osm_tags.h>
+#include <gnomon/io/read_text.h>
+
+namespace gnomon {
+namespace {
+
+// Attributes that name a feature, the best first.
+constexpr std::array<const char*, 13> kIds = {
+    "id",   "@id",    "gml_id",   "osm_id", "osm_way_id", "full_id", "identificatie",
+    "uuid", "gml:id", "globalid", "gmlid",  "name",       "nom"};
+
+struct Driver {
+  const char* name;    // GDAL's
+  const char* format;  // for people
+};
+// No driver but these is asked, so that no file can send GDAL elsewhere (VRT, WFS, ...).
+constexpr std::array<Driver, 7> kDrivers = {{{"GeoJSON", "GeoJSON"},
+                                             {"GeoJSONSeq", "GeoJSON text sequence"},
+                                             {"GPKG", "GeoPackage"},
+                                             {"ESRI Shapefile", "Shapefile"},
+                                             {"FlatGeobuf", "FlatGeobuf"},
+                                             {"GML", "GML"},
+                                             {"LIBKML", "KML"}}};
+
+// GDAL reports through a handler per thread; while one of these lives, its messages come here
+// instead of stderr.
+class GdalMessages {
+ public:
+  GdalMessages() { CPLPushErrorHandlerEx(&GdalMessages::collect, this); }
+  ~GdalMessages() { CPLPopErrorHandler(); }
+  GdalMessages(const GdalMessages&) = delete;
+  GdalMessages& operator=(const GdalMessages&) = delete;
+
+  std::optional<std::string> failure;  // the first one: later ones are its consequences
+  std::vector<std::string> warnings;
+
+ private:
+  static void CPL_STDCALL collect(CPLErr severity, CPLErrorNum, const char* message) {
+    auto* self = static_cast<GdalMessages*>(CPLGetErrorHandlerUserData());
+    if (severity == CE_Warning) self->warnings.emplace_back(message);
+    if (severity >= CE_Failure && !self->failure) self->failure = message;
+  }
+};
+
+struct CloseDataset {
+  void operator()(void* dataset) const { GDALClose(dataset); }
+};
+struct DestroyFeature {
+  void operator()(void* feature) const { OGR_F_Destroy(static_cast<OGRFeatureH>(feature)); }
+};
+struct DestroyGeometry {
+  void operator()(void* g) const { OGR_G_DestroyGeometry(static_cast<OGRGeometryH>(g)); }
+};
+using Dataset = std::unique_ptr<void, CloseDataset>;
+using Feature = std::unique_ptr<std::remove_pointer_t<OGRFeatureH>, DestroyFeature>;
+using Geometry = std::unique_ptr<std::remove_pointer_t<OGRGeometryH>, DestroyGeometry>;
+
+// What GDAL said, as a part of a sentence.
+std::string reason_of(const GdalMessages& messages) {
+  std::string text = messages.failure            ? *messages.failure
+                     : messages.warnings.empty() ? "GDAL gives no reason"
+                                                 : messages.warnings.front();
+  while (!text.empty() && (text.back() == '.' || text.back() == '\n')) text.pop_back();
+  return text;
+}
+
+Result<Dataset> open(const std::filesystem::path& path, const GdalMessages& messages) {
+  static std::once_flag registered;
+  std::call_once(registered, [] {
+    RegisterOGRGeoJSON();
+    RegisterOGRGeoJSONSeq();
+    RegisterOGRGeoPackage();
+    RegisterOGRShape();
+    RegisterOGRFlatGeobuf();
+    RegisterOGRGML();
+    RegisterOGRLIBKML();
+  });
+  // GDAL takes some names for addresses ("GPKG:...", "http://...", "/vsicurl/..."): a path from the
+  // root that is a file on this disk is none.
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) {
+    return Error{fmt::format("{}: there is no such file.", path.string())};
+  }
+  const std::string absolute = std::filesystem::absolute(path).lexically_normal().string();
+  if (absolute.starts_with("/vsi")) {
+    return Error{
+        fmt::format("{}: paths that start with /vsi mean something else to GDAL; move the "
+                    "file to another folder.",
+                    path.string())};
+  }
+  std::array<const char*, kDrivers.size() + 1> drivers{};
+  for (std::size_t k = 0; k < kDrivers.size(); ++k) drivers[k] = kDrivers[k].name;
+  // Drivers ignore each other's options, but warn of them; these are GML's.
+  std::string extension = lower_case(path.extension().string());
+  const std::array<const char*, 3> gml = {"WRITE_GFS=NO", "DOWNLOAD_SCHEMA=NO", nullptr};
+  Dataset dataset(GDALOpenEx(absolute.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, drivers.data(),
+                             extension == ".gml" ? gml.data() : nullptr, nullptr));
+  if (dataset) return dataset;
+  return Error{fmt::format(
+      "{}: cannot be read as GeoJSON, GeoPackage, Shapefile, FlatGeobuf, GML or KML ({}); check "
+      "that the file is whole{}.",
+      path.string(), reason_of(messages),
+      extension == ".shp" ? " and that its .shx and .dbf stand beside it" : "")};
+}
+
+bool may_hold_polygons(OGRwkbGeometryType type, bool declared) {
+  switch (wkbFlatten(type)) {
+    case wkbPolygon:
+    case wkbMultiPolygon:
+    case wkbCurvePolygon:
+    case wkbMultiSurface:
+    case wkbSurface:
+    case wkbTriangle:
+      return true;
+    case wkbUnknown:
+    case wkbGeometryCollection:
+      return !declared;
+    default:
+      return false;
+  }
+}
+
+// The layer to read. Layers that are declared to hold polygons go before those that may hold
+// anything.
+Result<OGRLayerH> choose_layer(GDALDatasetH dataset, const std::string& path,
+                               const std::string& name) {
+  const int n = GDALDatasetGetLayerCount(dataset);
+  std::vector<std::string> all;
+  for (int k = 0; k < n; ++k) {
+    const OGRLayerH layer = GDALDatasetGetLayer(dataset, k);
+    all.emplace_back(OGR_L_GetName(layer));
+    if (!name.empty() && all.back() == name) return layer;
+  }
+  if (!name.empty()) {
+    return Error{fmt::format("{}: there is no layer {}; it has {}.", path, in_quotes(name),
+                             all.empty() ? "none" : listed(all))};
+  }
+  for (const bool declared : {true, false}) {
+    std::vector<std::string> names;
+    OGRLayerH found = nullptr;
+    for (int k = 0; k < n; ++k) {
+      const OGRLayerH layer = GDALDatasetGetLayer(dataset, k);
+      if (!may_hold_polygons(OGR_L_GetGeomType(layer), declared)) continue;
+      found = layer;
+      names.emplace_back(OGR_L_GetName(layer));
+    }
+    if (names.size() > 1) {
+      return Error{
+          fmt::format("{}: it has several layers with polygons, {}; name the one with the "
+                      "buildings.",
+                      path, listed(names))};
+    }
+    if (found) return found;
+  }
+  return Error{
+      fmt::format("{}: it has no layer with polygons{}; footprints of buildings are "
+                  "polygons.",
+                  path, all.empty() ? "" : " (its layers: " + listed(all) + ")")};
+}
+
+// CRS of the layer, and whether its coordinates are stored north first.
+bool read_crs(OGRLayerH layer, FootprintFile& file) {
+  const OGRSpatialReferenceH own = OGR_L_GetSpatialRef(layer);
+  if (!own) return false;
+  const char* const own_name = OSRGetName(own);
+  // GeoPackage says so of layers of unknown place.
+  const bool undefined = own_name && std::string_view(own_name).starts_with("Undefined ");
+  if (undefined || OSRIsLocal(own)) {
+    if (OSRIsLocal(own)) file.metres_per_unit = OSRGetLinearUnits(own, nullptr);
+    return false;
+  }
+  int count = 0;
+  const int* own_axes = OSRGetDataAxisToSRSAxisMapping(own, &count);
+  const std::vector<int> stored(own_axes, own_axes + count);
+  const OGRSpatialReferenceH srs = OSRClone(own);
+  OSRSetAxisMappingStrategy(srs, OAMS_TRADITIONAL_GIS_ORDER);
+  const int* axes = OSRGetDataAxisToSRSAxisMapping(srs, &count);
+  const bool swapped = count >= 2 && stored.size() >= 2 && stored[0] != axes[0];
+  if (OSRIsCompound(srs)) OSRStripVertical(srs);
+  const char* const authority = OSRGetAuthorityName(srs, nullptr);
+  const char* const code = OSRGetAuthorityCode(srs, nullptr);
+  if (authority && code) {
+    file.crs = fmt::format("{}:{}", authority, code);
+  } else {
+    const std::array<const char*, 2> options = {"FORMAT=WKT2", nullptr};
+    char* wkt = nullptr;
+    if (OSRExportToWktEx(srs, &wkt, options.data()) == OGRERR_NONE && wkt) file.crs = wkt;
+    CPLFree(wkt);
+  }
+  OSRDestroySpatialReference(srs);
+  return swapped;
+}
+
+// Adds the polygons of a geometry, deep inside too.
+void add_polygons(OGRGeometryH g, bool swapped, FootprintFeature& feature) {
+  const OGRwkbGeometryType type = wkbFlatten(OGR_G_GetGeometryType(g));
+  if (OGR_GT_IsNonLinear(type)) {
+    const Geometry linear(OGR_G_GetLinearGeometry(g, 0, nullptr));
+    if (linear) add_polygons(linear.get(), swapped, feature);
+    return;
+  }
+  const int parts = OGR_G_GetGeometryCount(g);
+  if (type == wkbMultiPolygon || type == wkbGeometryCollection) {
+    for (int k = 0; k < parts; ++k) add_polygons(OGR_G_GetGeometryRef(g, k), swapped, feature);
+    return;
+  }
+  if (type != wkbPolygon && type != wkbTriangle) {
+    feature.has_other_geometry = true;
+    return;
+  }
+  Rings rings;
+  for (int k = 0; k < parts; ++k) {
+    const OGRGeometryH ring = OGR_G_GetGeometryRef(g, k);
+    const bool heights = OGR_G_Is3D(ring) != 0;
+    auto& points = rings.emplace_back();
+    for (int p = 0; p < OGR_G_GetPointCount(ring); ++p) {
+      const double x = OGR_G_GetX(ring, p), y = OGR_G_GetY(ring, p);
+      const Vec2 at = swapped ? Vec2(y, x) : Vec2(x, y);
+      if (points.empty() || points.back() != at) points.push_back(at);
+      if (heights && OGR_G_GetZ(ring, p) != 0) feature.has_heights = true;
+    }
+    while (points.size() > 1 && points.front() == points.back()) points.pop_back();
+  }
+  if (!rings.empty() && !rings[0].empty()) feature.polygons.push_back(std::move(rings));
+}
+
+struct Field {
+  int index;
+  std::string name;  // in lower case
+  bool wanted, packed;
+};
+
+std::string text_of(OGRFeatureH feature, int index) {
+  // Without the rounding of OGR's own text.
+  if (OGR_Fld_GetType(OGR_F_GetFieldDefnRef(feature, index)) == OFTReal) {
+    return fmt::format("{}", OGR_F_GetFieldAsDouble(feature, index));
+  }
+  return OGR_F_GetFieldAsString(feature, index);
+}
+
+void add_attributes(OGRFeatureH source, const std::vector<Field>& fields,
+                    const std::vector<std::string>& wanted, std::set<std::string>& packed_names,
+                    FootprintFeature& feature) {
+  const auto add = [&](const std::string& name, std::string value) {
+    const bool known = std::any_of(feature.attributes.begin(), feature.attributes.end(),
+                                   [&](const auto& a) { return a.first == name; });
+    if (!known) feature.attributes.emplace_back(name, std::move(value));
+  };
+  for (const bool packed : {false, true}) {
+    for (const Field& f : fields) {
+      if (!(packed ? f.packed : f.wanted) || !OGR_F_IsFieldSetAndNotNull(source, f.index)) continue;
+      std::string value = text_of(source, f.index);
+      if (!packed) {
+        add(f.name, std::move(value));
+        continue;
+      }
+      for (auto& [name, text] : parse_tags(value).value_or(Tags{})) {
+        const std::string lower = lower_case(name);
+        packed_names.insert(name);
+        if (std::binary_search(wanted.begin(), wanted.end(), lower)) add(lower, std::move(text));
+      }
+    }
+  }
+}
+
+void name_feature(FootprintFeature& feature) {
+  for (const char* name : kIds) {
+    for (const auto& [attribute, value] : feature.attributes) {
+      if (attribute != name || value.empty()) continue;
+      feature.id = value;
+      return;
+    }
+  }
+}
+
+}  // namespace
+
+std::string lower_case(std::string_view text) {
+  std::string out(text);
+  for (char& c : out) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+  return out;
+}
+
+std::string listed(const std::vector<std::string>& names, std::size_t most) {
+  std::string out;
+  for (std::size_t k = 0; k < std::min(most, names.size()); ++k) {
+    out += (out.empty() ? "" : ", ") + names[k];
+  }
+  if (names.size() > most) out += fmt::format(", ... ({} more)", names.size() - most);
+  return out;
+}
+
+Result<FootprintFile> read_footprint_file(const std::filesystem::path& path,
+                                          const std::string& layer_name,
+                                          const std::vector<std::string>& wanted_names) {
+  GdalMessages messages;
+  auto opened = open(path, messages);
+  if (!opened) return opened.error();
+  const Dataset dataset = std::move(opened).value();
+  auto chosen = choose_layer(dataset.get(), path.string(), layer_name);
+  if (!chosen) return chosen.error();
+  const OGRLayerH layer = chosen.value();
+
+  FootprintFile file;
+  const std::string driver = GDALGetDriverShortName(GDALGetDatasetDriver(dataset.get()));
+  for (const Driver& d : kDrivers) {
+    if (driver == d.name) file.format = d.format;
+  }
+  file.layer = OGR_L_GetName(layer);
+  file.several_layers = GDALDatasetGetLayerCount(dataset.get()) > 1;
+  const bool swapped = read_crs(layer, file);
+
+  std::vector<std::string> wanted = wanted_names;
+  wanted.insert(wanted.end(), kIds.begin(), kIds.end());
+  std::sort(wanted.begin(), wanted.end());
+  std::vector<Field> fields;
+  const OGRFeatureDefnH definition = OGR_L_GetLayerDefn(layer);
+  for (int k = 0; k < OGR_FD_GetFieldCount(definition); ++k) {
+    file.attributes.emplace_back(OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(definition, k)));
+    Field f{k, lower_case(file.attributes.back()), false, false};
+    f.wanted = std::binary_search(wanted.begin(), wanted.end(), f.name);
+    f.packed = f.name == "tags" || f.name == "other_tags" || f.name == "all_tags";
+    fields.push_back(std::move(f));
+  }
+
+  std::set<std::string> packed_names;
+  std::vector<GIntBig> fids;
+  OGR_L_ResetReading(layer);
+  while (const Feature source{OGR_L_GetNextFeature(layer)}) {
+    if (messages.failure) break;
+    FootprintFeature& feature = file.features.emplace_back();
+    feature.number = file.features.size();
+    fids.push_back(OGR_F_GetFID(source.get()));
+    add_attributes(source.get(), fields, wanted, packed_names, feature);
+    name_feature(feature);
+    const OGRGeometryH geometry = OGR_F_GetGeometryRef(source.get());
+    feature.has_geometry = geometry && !OGR_G_IsEmpty(geometry);
+    if (feature.has_geometry) add_polygons(geometry, swapped, feature);
+  }
+  if (messages.failure) {
+    return Error{fmt::format(
+        "{}: layer {} cannot be read beyond feature {} ({}); check that the "
+        "file is whole.",
+        path.string(), in_quotes(file.layer), file.features.size(), reason_of(messages))};
+  }
+  // GDAL numbers features where the file does not.
+  bool numbered = true;
+  for (std::size_t k = 0; k < fids.size(); ++k) {
+    const auto ordinal = static_cast<GIntBig>(k);
+    numbered = numbered && fids[k] == fids[0] + ordinal && fids[0] >= 0 && fids[0] <= 1;
+  }
+  if (!numbered) {
+    for (std::size_t k = 0; k < fids.size(); ++k) {
+      if (file.features[k].id.empty()) file.features[k].id = std::to_string(fids[k]);
+    }
+  }
+  file.attributes.insert(file.attributes.end(), packed_names.begin(), packed_names.end());
+  for (const std::string& text : messages.warnings) {
+    warn(file.warnings, "GDAL was not content with a file.",
+         fmt::format("{}: {}", path.string(), text));
+  }
+  return file;
+}
+
+}  // namespace gnomon
