@@ -27,8 +27,8 @@ constexpr std::string_view kTerrain[] = {"TINRelief",       "LandUse",   "Road",
 // City objects whose lowest vertex says nothing about the ground: what hangs on or stands in a
 // building, spans the ground or runs below it.
 constexpr std::string_view kAloof[] = {
-    "Installation", "ConstructiveElement", "Furniture", "Room", "Storey", "Unit", "Bridge",
-    "Tunnel",       "HollowSpace"};
+    "Installation", "ConstructiveElement", "Furniture",        "Room", "Storey", "Unit", "Bridge",
+    "Tunnel",       "HollowSpace",         "HeightAboveGround"};
 
 constexpr std::string_view kCityObjects[] = {
     "Building",          "BuildingPart",    "GenericCityObject",       "CityFurniture",

@@ -1,0 +1,319 @@
+#include <gnomon/io/raster_grid.h>
+
+#include <cpl_error.h>
+#include <fmt/format.h>
+#include <gdal.h>
+#include <gdal_frmts.h>
+#include <ogr_spatialref.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+namespace gnomon {
+namespace {
+
+// GDAL reports through a handler per thread; while one of these lives, its errors come here instead
+// of stderr.
+class GdalErrors {
+ public:
+  GdalErrors() { CPLPushErrorHandlerEx(&GdalErrors::collect, this); }
+  ~GdalErrors() { CPLPopErrorHandler(); }
+  GdalErrors(const GdalErrors&) = delete;
+  GdalErrors& operator=(const GdalErrors&) = delete;
+
+  // The first failure is the cause, later ones are its consequences.
+  const std::optional<std::string>& first() const { return first_; }
+
+ private:
+  static void CPL_STDCALL collect(CPLErr severity, CPLErrorNum, const char* message) {
+    if (severity < CE_Failure) return;
+    auto* self = static_cast<GdalErrors*>(CPLGetErrorHandlerUserData());
+    if (!self->first_) self->first_ = message;
+  }
+  std::optional<std::string> first_;
+};
+
+struct CloseDataset {
+  void operator()(void* dataset) const { GDALClose(dataset); }
+};
+using Dataset = std::unique_ptr<void, CloseDataset>;
+
+// The drivers that may open a file. All of them read one local file (and what lies beside it): VRT
+// and the like, which name other files and addresses, are not among them.
+constexpr const char* kDrivers[] = {"GTiff", "AAIGrid", "HFA",  "USGSDEM", "SRTMHGT", "DTED",
+                                    "EHdr",  "GSAG",    "GSBG", "GS7BG",   nullptr};
+
+// Only these: registering all of GDAL's drivers reads plugins and costs more than a small file.
+void register_drivers() {
+  static std::once_flag registered;
+  std::call_once(registered, [] {
+    GDALRegister_GTiff();
+    GDALRegister_AAIGrid();
+    GDALRegister_HFA();
+    GDALRegister_USGSDEM();
+    GDALRegister_SRTMHGT();
+    GDALRegister_DTED();
+    GDALRegister_EHdr();
+    GDALRegister_GSAG();
+    GDALRegister_GSBG();
+    GDALRegister_GS7BG();
+  });
+}
+
+std::string lower(std::string text) {
+  for (char& c : text) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+  return text;
+}
+
+// Values that files without a declared nodata value often have in its place. None is a height.
+constexpr double kUsualNoData[] = {-9999, -32767, -32768, -99999};
+
+// Cells smaller than this (in the file's unit) in a file that names no CRS are degrees, not metres:
+// 0.001 degrees are 111 m, a millimetre is finer than any surface model of a building.
+constexpr double kLeastCell = 1e-3;
+
+Error refuse(const std::filesystem::path& path, const std::string& why) {
+  return {path.string() + ": " + why};
+}
+
+std::optional<double> metres_per(const std::string& unit) {
+  const std::string u = lower(unit);
+  for (const char* name : {"m", "metre", "metres", "meter", "meters"}) {
+    if (u == name) return 1.0;
+  }
+  for (const char* name : {"us survey foot", "us_survey_foot", "foot_us", "us-ft", "us foot",
+                           "us survey feet", "sft", "ftus", "survey foot"}) {
+    if (u == name) return 1200.0 / 3937.0;
+  }
+  for (const char* name : {"ft", "foot", "feet", "international foot", "foot (international)"}) {
+    if (u == name) return 0.3048;
+  }
+  if (u == "cm" || u == "centimetre" || u == "centimeter") return 0.01;
+  if (u == "dm") return 0.1;
+  if (u == "mm") return 0.001;
+  return {};
+}
+
+// "EPSG:25830" where the CRS has such a code, else WKT.
+std::string name_of_crs(OGRSpatialReference crs) {
+  if (crs.IsCompound()) crs.StripVertical();
+  const char *authority = crs.GetAuthorityName(nullptr), *code = crs.GetAuthorityCode(nullptr);
+  if (authority && code && std::string(authority) == "EPSG") return std::string("EPSG:") + code;
+  char* text = nullptr;
+  const char* const options[] = {"FORMAT=WKT2_2019", nullptr};
+  std::string wkt;
+  if (crs.exportToWkt(&text, options) == OGRERR_NONE && text) wkt = text;
+  CPLFree(text);
+  return wkt;
+}
+
+// Metres that one unit of the band's heights is.
+double height_unit(const std::filesystem::path& path, GDALRasterBandH band,
+                   const OGRSpatialReference* crs, Warnings& warnings) {
+  const char* named = GDALGetRasterUnitType(band);
+  const std::string unit = named ? named : "";
+  if (!unit.empty()) {
+    if (const auto metres = metres_per(unit)) return *metres;
+    warn(warnings, "The unit of a raster's heights is not understood; they are taken as metres.",
+         fmt::format("{}: unit '{}'", path.string(), unit));
+    return 1.0;
+  }
+  if (crs && crs->IsCompound()) return crs->GetTargetLinearUnits("COMPD_CS|VERT_CS");
+  if (crs && crs->IsProjected() && crs->GetLinearUnits() != 1.0) {
+    warn(warnings,
+         "A raster in a CRS in feet does not name the unit of its heights; they are taken as "
+         "metres (declare feet with 'gdal_edit.py -setunittype ft', or a vertical CRS).",
+         path.string());
+  }
+  return 1.0;
+}
+
+std::optional<Error> check_band(const std::filesystem::path& path, GDALRasterBandH band,
+                                int number) {
+  if (GDALDataTypeIsComplex(GDALGetRasterDataType(band))) {
+    return refuse(path, fmt::format("band {} holds complex numbers, which are no heights; choose "
+                                    "another band.",
+                                    number));
+  }
+  switch (GDALGetRasterColorInterpretation(band)) {
+    case GCI_PaletteIndex:
+    case GCI_RedBand:
+    case GCI_GreenBand:
+    case GCI_BlueBand:
+    case GCI_AlphaBand:
+      return refuse(
+          path,
+          fmt::format("band {} is a colour of a picture ({}), not heights; give a "
+                      "raster of heights, or another band.",
+                      number,
+                      GDALGetColorInterpretationName(GDALGetRasterColorInterpretation(band))));
+    default:
+      return {};
+  }
+}
+
+std::optional<Error> check_placed(const std::filesystem::path& path, const RasterGrid& grid) {
+  const auto& t = grid.transform;
+  for (const double c : t) {
+    if (!std::isfinite(c)) return refuse(path, "its geotransform is not finite; georeference it.");
+  }
+  if (t[1] * t[5] - t[2] * t[4] == 0.0) {
+    return refuse(path, "its cells have no area, by its geotransform; georeference it anew.");
+  }
+  if (grid.crs.empty() && std::hypot(t[1], t[4]) < kLeastCell) {
+    return refuse(path, fmt::format("it names no CRS and its cells are {:.3g} wide, so these are "
+                                    "degrees rather than metres; name its CRS with --crs, such as "
+                                    "EPSG:4326.",
+                                    std::hypot(t[1], t[4])));
+  }
+  return {};
+}
+
+// What is not data becomes NaN; the rest is scaled, and checked.
+std::optional<Error> finish_values(const std::filesystem::path& path, RasterGrid& grid,
+                                   const RasterWindow& w, const std::vector<std::uint8_t>& mask,
+                                   double scale, double offset, bool declared) {
+  for (std::size_t k = 0; k < grid.z.size(); ++k) {
+    double& z = grid.z[k];
+    if (std::isnan(z) || (!mask.empty() && mask[k] == 0)) {
+      z = std::numeric_limits<double>::quiet_NaN();
+      continue;
+    }
+    const double raw = z;
+    z = raw * scale + offset;
+    const bool usual = !declared && std::find(std::begin(kUsualNoData), std::end(kUsualNoData),
+                                              raw) != std::end(kUsualNoData);
+    if (std::fabs(z) <= kHighestHeight && !usual) continue;
+    const auto n = static_cast<std::size_t>(w.columns);
+    return refuse(
+        path,
+        fmt::format("the value {:g} at column {}, row {} (from 0) is no height; if it stands for "
+                    "'no data', declare it: gdal_edit.py -a_nodata {:.17g} FILE.",
+                    raw, static_cast<std::size_t>(w.column) + k % n,
+                    static_cast<std::size_t>(w.row) + k / n, raw));
+  }
+  return {};
+}
+
+}  // namespace
+
+bool is_raster_file(const std::filesystem::path& path, std::string_view first_bytes) {
+  using namespace std::string_view_literals;
+  for (const std::string_view magic :
+       {"II*\0"sv, "MM\0*"sv, "II+\0"sv, "MM\0+"sv, "EHFA_HEADER_TAG"sv, "UHL1"sv, "DSAA"sv,
+        "DSBB"sv, "DSRB"sv}) {
+    if (first_bytes.starts_with(magic)) return true;
+  }
+  std::string start = lower(std::string(first_bytes.substr(0, 32)));
+  start.erase(0, std::min(start.find_first_not_of(" \t\r\n"), start.size()));
+  for (const char* word : {"ncols", "nrows", "xllcorner", "xllcenter", "yllcorner", "yllcenter"}) {
+    if (start.starts_with(word)) return true;
+  }
+  const std::string extension = lower(path.extension().string());
+  for (const char* known : {".tif", ".tiff", ".asc", ".hgt", ".dem", ".bil", ".flt", ".img", ".dt0",
+                            ".dt1", ".dt2", ".grd", ".vrt"}) {
+    if (extension == known) return true;
+  }
+  return false;
+}
+
+Result<RasterGrid> read_raster_grid(
+    const std::filesystem::path& path, int number, const std::string& fallback_crs,
+    const std::function<Result<RasterWindow>(const RasterGrid&)>& window, Warnings& warnings) {
+  std::error_code ignored;
+  // A name that is no file may still mean something to GDAL: "/vsicurl/http://...".
+  if (!std::filesystem::is_regular_file(path, ignored)) {
+    return refuse(path, "there is no such file; check the name.");
+  }
+  if (lower(path.extension().string()) == ".vrt") {
+    return refuse(path,
+                  "a VRT only names other files and is not read; make one file of it with "
+                  "'gdal_translate in.vrt out.tif'.");
+  }
+  register_drivers();
+  GdalErrors errors;
+  const std::string whole_path = std::filesystem::absolute(path).string();
+  const Dataset dataset(GDALOpenEx(whole_path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, kDrivers,
+                                   nullptr, nullptr));
+  if (!dataset) {
+    return refuse(path,
+                  fmt::format("it cannot be read as a raster ({}); GeoTIFF, ASCII grid (.asc), "
+                              "Erdas Imagine, DTED, SRTM (.hgt), USGS (.dem), ESRI (.bil, .flt) "
+                              "and Surfer grids are read.",
+                              errors.first().value_or("no driver knows its content")));
+  }
+  const int bands = GDALGetRasterCount(dataset.get());
+  if (number < 1 || number > bands) {
+    return refuse(path, fmt::format("there is no band {}; it has {}.", number, bands));
+  }
+  const GDALRasterBandH band = GDALGetRasterBand(dataset.get(), number);
+  if (auto error = check_band(path, band, number)) return *error;
+  if (bands > 1) {
+    warn(warnings, "Of a raster with several bands one is read.",
+         fmt::format("{}: band {} of {}", path.string(), number, bands));
+  }
+
+  RasterGrid grid;
+  grid.format = GDALGetDriverLongName(GDALGetDatasetDriver(dataset.get()));
+  grid.columns = GDALGetRasterXSize(dataset.get());
+  grid.rows = GDALGetRasterYSize(dataset.get());
+  if (GDALGetGeoTransform(dataset.get(), grid.transform.data()) != CE_None) {
+    return refuse(
+        path, GDALGetGCPCount(dataset.get()) > 0
+                  ? "it is placed by ground control points; rectify it with gdalwarp."
+                  : "it has no georeference, so the size of its cells is not known; give it one, "
+                    "as 'gdal_translate -a_srs EPSG:25832 -a_ullr WEST NORTH EAST SOUTH in.tif "
+                    "out.tif' does, or a world file beside it.");
+  }
+  std::optional<OGRSpatialReference> crs;
+  if (const OGRSpatialReferenceH named = GDALGetSpatialRef(dataset.get())) {
+    crs = *OGRSpatialReference::FromHandle(named);
+    // A "local" CRS (engineering) says no more than that there is none.
+    if (!crs->IsEmpty() && !crs->IsLocal()) grid.crs = name_of_crs(*crs);
+  }
+  if (grid.crs.empty()) grid.crs = fallback_crs;
+  if (auto error = check_placed(path, grid)) return *error;
+
+  const Result<RasterWindow> wanted = window(grid);
+  if (!wanted) return wanted.error();
+  const RasterWindow& w = wanted.value();
+  const Vec2 corner = place_of(grid, w.column, w.row);
+  grid.transform[0] = corner.x;
+  grid.transform[3] = corner.y;
+  grid.columns = w.columns;
+  grid.rows = w.rows;
+
+  const std::size_t cells = static_cast<std::size_t>(w.columns) * static_cast<std::size_t>(w.rows);
+  grid.z.resize(cells);
+  std::vector<std::uint8_t> mask;
+  CPLErr read = GDALRasterIO(band, GF_Read, w.column, w.row, w.columns, w.rows, grid.z.data(),
+                             w.columns, w.rows, GDT_Float64, 0, 0);
+  if (read == CE_None && !(GDALGetMaskFlags(band) & GMF_ALL_VALID)) {
+    mask.resize(cells);
+    read = GDALRasterIO(GDALGetMaskBand(band), GF_Read, w.column, w.row, w.columns, w.rows,
+                        mask.data(), w.columns, w.rows, GDT_Byte, 0, 0);
+  }
+  if (read != CE_None || errors.first()) {
+    return refuse(path, fmt::format("its values cannot be read ({}); the file may be cut off, so "
+                                    "copy it anew.",
+                                    errors.first().value_or("GDAL gave no reason")));
+  }
+  const double unit = height_unit(path, band, crs ? &*crs : nullptr, warnings);
+  int has_scale = 0, has_offset = 0, declared = 0;
+  const double scale = GDALGetRasterScale(band, &has_scale);
+  const double offset = GDALGetRasterOffset(band, &has_offset);
+  GDALGetRasterNoDataValue(band, &declared);
+  if (auto error = finish_values(path, grid, w, mask, (has_scale ? scale : 1.0) * unit,
+                                 (has_offset ? offset : 0.0) * unit, declared != 0)) {
+    return *error;
+  }
+  return grid;
+}
+
+}  // namespace gnomon
