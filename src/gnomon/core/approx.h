@@ -8,6 +8,10 @@
 
 #include <cmath>
 
+#ifdef __FAST_MATH__
+#error "Gnomon's predicates need IEEE arithmetic: compile this file without -ffast-math or -Ofast"
+#endif
+
 namespace gnomon {
 
 inline constexpr double kUnitRoundoff = 0x1p-53;  // of double, round to nearest
