@@ -42,8 +42,7 @@ using Feature = std::unique_ptr<void, DestroyFeature>;
 
 OGRFeatureH handle(const Feature& feature) { return static_cast<OGRFeatureH>(feature.get()); }
 
-// A ring of GDAL's in pixels: whole numbers, so that twice its area (positive if it runs clockwise
-// with y down, which is counter-clockwise on the map) is exact.
+// A ring of GDAL's in pixels: whole numbers, so that its area is exact.
 struct PixelRing {
   std::vector<std::pair<std::int64_t, std::int64_t>> corners;  // closed
   std::int64_t twice_area = 0;  // positive: counter-clockwise on the map, where y is up
@@ -213,7 +212,10 @@ Result<FileWritten> write_outlines(const std::filesystem::path& path, OutlineFor
                              0, 0, 0, GDT_Unknown, nullptr));
   if (!dataset) return gdal_error(path, errors);
   OptionList options;
-  if (geojson) options.set("COORDINATE_PRECISION", "9");  // a nanometre, and no digits of rounding
+  if (geojson) {
+    options.set("COORDINATE_PRECISION", "9");  // a nanometre: without digits that are rounding
+    options.set("SIGNIFICANT_FIGURES", "15");  // of the properties, for the same reason
+  }
   const OGRSpatialReferenceH crs = place.crs ? OGRSpatialReference::ToHandle(&*place.crs) : nullptr;
   const OGRLayerH layer =
       GDALDatasetCreateLayer(dataset.get(), "shadows", crs, wkbPolygon, options.get());
