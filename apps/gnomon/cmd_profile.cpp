@@ -68,18 +68,6 @@ void remove_other_map(const Staging& staging) {
   }
 }
 
-std::string title_of(const Options& o) {
-  if (!o.title.empty()) return o.title;
-  std::string title;
-  for (const auto& m : o.models.models) {
-    std::string stem = m.stem().string();  // "vienna.city.json" -> "vienna"
-    if (const auto dot = stem.rfind(".city"); dot != std::string::npos && dot + 5 == stem.size())
-      stem.resize(dot);
-    title += (title.empty() ? "" : ", ") + stem;
-  }
-  return title;
-}
-
 // "18 September 2024, 09:00 - 17:00 Europe/Vienna"
 std::string window_text(const StudyTimes& t, const Samples& s, const Place& place) {
   static constexpr const char* kMonths[] = {"January",   "February", "March",    "April",
@@ -177,7 +165,8 @@ void run(const Options& o) {
   }
 
   const std::string software = std::string("gnomon ") + GNOMON_VERSION;
-  const std::string title = title_of(o), window = window_text(o.time.times, samples, place);
+  const std::string title = o.title.empty() ? title_of(o.models) : o.title,
+                    window = window_text(o.time.times, samples, place);
   const std::string steps =
       fmt::format("{} steps of {}", samples.midpoints.size(), o.time.times.every);
   Staging staging(o.output);

@@ -35,6 +35,7 @@ struct Common {
 void add_common(CLI::App& command, Common& common);
 
 void add_profile(CLI::App& app);
+void add_shadow(CLI::App& app);
 void add_inspect(CLI::App& app);
 void add_sun(CLI::App& app);
 void add_verify(CLI::App& app);

@@ -32,6 +32,7 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", std::string("gnomon ") + GNOMON_VERSION);
   app.require_subcommand(1);
   gnomon::app::add_profile(app);
+  gnomon::app::add_shadow(app);
   gnomon::app::add_inspect(app);
   gnomon::app::add_sun(app);
 #ifdef GNOMON_HAVE_TRACE

@@ -191,4 +191,15 @@ void add_model_options(CLI::App& command, ModelOptions& options) {
   add_surfaces(command, load);
 }
 
+std::string title_of(const ModelOptions& options) {
+  std::string title;
+  for (const auto& m : options.models) {
+    std::string stem = m.stem().string();  // "vienna.city.json" -> "vienna"
+    if (const auto dot = stem.rfind(".city"); dot != std::string::npos && dot + 5 == stem.size())
+      stem.resize(dot);
+    title += (title.empty() ? "" : ", ") + stem;
+  }
+  return title;
+}
+
 }  // namespace gnomon::app

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include <gnomon/io/load_scene.h>
@@ -20,5 +21,8 @@ struct ModelOptions {
 // --site take [FILE=]VALUE, for one file or for all, and may be repeated; so may the last three, which
 // take one pattern each. `options` must outlive the parsing.
 void add_model_options(CLI::App& command, ModelOptions& options);
+
+// Names of the models for a picture's title: "vienna, towers" for vienna.city.json and towers.obj.
+std::string title_of(const ModelOptions& options);
 
 }  // namespace gnomon::app

@@ -6,12 +6,11 @@
 #include <gnomon/io/crs.h>
 #include <gnomon/raster/add_where_positive.h>
 #include <gnomon/sun/time_zone.h>
-#include <nlohmann/json.hpp>
+
+#include "summary_parts.h"
 
 namespace gnomon::app {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 double rounded(double v, int decimals) {
   const double scale = std::pow(10.0, decimals);
@@ -30,12 +29,14 @@ Json sample_json(const TimeSample& s) {
           {"above_horizon", s.up}};
 }
 
+}  // namespace
+
 Json text_or_null(const std::string& text) { return text.empty() ? Json() : Json(text); }
 
-Json inputs_json(const Summary& s) {
-  const LoadOptions& l = s.models.load;
+Json model_inputs_json(const ModelOptions& options) {
+  const LoadOptions& l = options.load;
   Json models = Json::array();
-  for (const auto& m : s.models.models) models.push_back(m.string());
+  for (const auto& m : options.models) models.push_back(m.string());
   Json out{{"models", models},
            {"lod", text_or_null(l.lod)},
            {"up", l.up == 0 ? Json() : Json(std::string(1, l.up))},
@@ -46,13 +47,7 @@ Json inputs_json(const Summary& s) {
            {"ground", l.ground},
            {"cast", l.cast},
            {"no_cast", l.no_cast},
-           {"receive", l.receive},
-           {"date", s.times.date},
-           {"from", text_or_null(s.times.from)},
-           {"to", text_or_null(s.times.to)},
-           {"every", s.times.every},
-           {"tz", s.times.zone},
-           {"threads", s.threads == 0 ? Json() : Json(s.threads)}};
+           {"receive", l.receive}};
   if (l.site) {
     out["site"] = {{"latitude_deg", degrees(l.site->place.latitude)},
                    {"longitude_deg", degrees(l.site->place.longitude)},
@@ -61,10 +56,10 @@ Json inputs_json(const Summary& s) {
   return out;
 }
 
-Json scene_json(const Summary& s) {
-  const Scene& scene = s.loaded.scene;
+Json scene_json(const LoadedScene& loaded) {
+  const Scene& scene = loaded.scene;
   Json files = Json::array();
-  for (const FileReport& f : s.loaded.files) {
+  for (const FileReport& f : loaded.files) {
     files.push_back({{"path", f.path},
                      {"format", f.format},
                      {"crs", text_or_null(f.crs)},
@@ -81,25 +76,26 @@ Json scene_json(const Summary& s) {
     receiving += receives(scene, t) ? 1 : 0;
   }
   const Frame& f = scene.frame;
+  Json place;
+  if (f.place) {
+    place = {{"latitude_deg", degrees(f.place->latitude)},
+             {"longitude_deg", degrees(f.place->longitude)},
+             {"height_m", rounded(f.place->height, 3)}};
+  }
   return {{"files", files},
           {"triangles", scene.mesh.triangles.size()},
           {"triangles_casting", casting},
           {"triangles_receiving", receiving},
           {"vertices", scene.mesh.positions.size()},
-          {"zero_area_triangles_dropped", s.loaded.zero_area_triangles},
-          {"ground", {{"kind", s.loaded.ground.kind}, {"triangles", s.loaded.ground.triangles}}},
+          {"zero_area_triangles_dropped", loaded.zero_area_triangles},
+          {"ground", {{"kind", loaded.ground.kind}, {"triangles", loaded.ground.triangles}}},
           {"crs", text_or_null(f.crs)},
           {"origin", {f.origin.x, f.origin.y, f.origin.z}},
           {"true_north_deg", degrees(f.true_north)},
-          {"place",
-           {{"latitude_deg", degrees(f.place->latitude)},
-            {"longitude_deg", degrees(f.place->longitude)},
-            {"height_m", rounded(f.place->height, 3)}}}};
+          {"place", place}};
 }
 
-Json view_json(const Summary& s) {
-  const View& v = s.view;
-  const Vec3& o = s.loaded.scene.frame.origin;
+Json view_json(const View& v, const Vec3& o) {
   const auto vec = [](const Vec4& a) { return Json{a.x, a.y, a.z, a.w}; };
   const bool plan = v.eye == Vec4(0, 0, 1, 0);
   Json out{{"kind", plan             ? "plan"
@@ -120,6 +116,27 @@ Json view_json(const Summary& s) {
                        {"origin", vec(v.origin)},
                        {"right", vec(v.right)},
                        {"down", vec(v.down)}};
+  return out;
+}
+
+Json warnings_json(const Warnings& warnings) {
+  Json out = Json::array();
+  for (const Warning& w : warnings) {
+    out.push_back({{"what", w.what}, {"count", w.count}, {"first", text_or_null(w.first)}});
+  }
+  return out;
+}
+
+namespace {
+
+Json inputs_json(const Summary& s) {
+  Json out = model_inputs_json(s.models);
+  out["date"] = s.times.date;
+  out["from"] = text_or_null(s.times.from);
+  out["to"] = text_or_null(s.times.to);
+  out["every"] = s.times.every;
+  out["tz"] = s.times.zone;
+  out["threads"] = s.threads == 0 ? Json() : Json(s.threads);
   return out;
 }
 
@@ -152,8 +169,8 @@ std::string summary_json(const Summary& s, const Warnings& warnings) {
       "[x east, y north, z up in the model's CRS, towards the sun]; hours: each step's midpoint "
       "times the step";
   json["inputs"] = inputs_json(s);
-  json["scene"] = scene_json(s);
-  json["view"] = view_json(s);
+  json["scene"] = scene_json(s.loaded);
+  json["view"] = view_json(s.view, s.loaded.scene.frame.origin);
   json["window"] = {{"begin_utc", iso_text(s.samples.begin)}, {"end_utc", iso_text(s.samples.end)}};
   json["samples"] = Json::array();
   for (const TimeSample& t : s.samples.midpoints) json["samples"].push_back(sample_json(t));
@@ -174,11 +191,7 @@ std::string summary_json(const Summary& s, const Warnings& warnings) {
       {"instruction_set", instruction_set()}};
   json["timings"] = Json::object();
   for (const auto& [stage, ms] : s.timings) json["timings"][stage] = rounded(ms, 3);
-  json["warnings"] = Json::array();
-  for (const Warning& w : warnings) {
-    json["warnings"].push_back(
-        {{"what", w.what}, {"count", w.count}, {"first", text_or_null(w.first)}});
-  }
+  json["warnings"] = warnings_json(warnings);
   json["outputs"] = s.outputs;
   // File names need not be UTF-8; JSON must be.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

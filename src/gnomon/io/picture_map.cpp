@@ -65,10 +65,9 @@ bool outlined(const PlanRelief& relief, std::size_t k, std::size_t step) {
 }
 
 Picture draw_enlarged(const Profile& p, const PlanRelief& relief, const MapSize& size,
-                      int threads) {
+                      const std::array<Rgb, 256>& colours, int threads) {
   Picture out{size.width, size.height, {}};
   out.pixels.resize(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height));
-  const std::array<Rgb, 256>& colours = hours_colours();
   const float per_ms = p.daylight_ms > 0 ? 1.0F / static_cast<float>(p.daylight_ms) : 0.0F;
   const int line = std::max(1, size.enlarged / 12);  // pixels
   const std::size_t width = static_cast<std::size_t>(p.width);
@@ -95,10 +94,10 @@ Picture draw_enlarged(const Profile& p, const PlanRelief& relief, const MapSize&
 }
 
 // Area means, first down a strip of rows into one row of sums, then along it.
-Picture draw_shrunk(const Profile& p, const PlanRelief& relief, const MapSize& size, int threads) {
+Picture draw_shrunk(const Profile& p, const PlanRelief& relief, const MapSize& size,
+                    const std::array<Rgb, 256>& colours, int threads) {
   Picture out{size.width, size.height, {}};
   out.pixels.resize(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height));
-  const std::array<Rgb, 256>& colours = hours_colours();
   const float per_ms = p.daylight_ms > 0 ? 1.0F / static_cast<float>(p.daylight_ms) : 0.0F;
   const double rows_each = static_cast<double>(p.height) / size.height;
   const double columns_each = static_cast<double>(p.width) / size.width;
@@ -180,9 +179,14 @@ MapSize map_size(int width, int height) {
 }
 
 Picture draw_hours(const Profile& profile, const PlanRelief& relief, int threads) {
+  return draw_hours(profile, relief, hours_colours(), threads);
+}
+
+Picture draw_hours(const Profile& profile, const PlanRelief& relief,
+                   const std::array<Rgb, 256>& colours, int threads) {
   const MapSize size = map_size(profile.width, profile.height);
-  return size.scale < 1 ? draw_shrunk(profile, relief, size, threads)
-                        : draw_enlarged(profile, relief, size, threads);
+  return size.scale < 1 ? draw_shrunk(profile, relief, size, colours, threads)
+                        : draw_enlarged(profile, relief, size, colours, threads);
 }
 
 }  // namespace gnomon

@@ -2,6 +2,8 @@
 // for a page.
 #pragma once
 
+#include <array>
+
 #include <gnomon/io/picture.h>
 #include <gnomon/io/picture_shading.h>
 #include <gnomon/profile/profile.h>
@@ -23,5 +25,9 @@ MapSize map_size(int width, int height);
 // Colours are those of hours_colour(hours / daylight). Shrinking averages hours over each pixel's
 // area (not colours, which would not be on the legend). Preconditions as draw_plan.
 Picture draw_hours(const Profile& profile, const PlanRelief& relief, int threads);
+
+// The same in other colours, from no hour to all of the daylight.
+Picture draw_hours(const Profile& profile, const PlanRelief& relief,
+                   const std::array<Rgb, 256>& colours, int threads);
 
 }  // namespace gnomon

@@ -6,6 +6,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -33,6 +34,12 @@ struct Layout {
   double side_width = 0;
   int canvas_width = 0, canvas_height = 0;
   double footer_y = 0;
+};
+
+// What stands beside the map, or below it.
+struct Legend {
+  double beside = 0, below = 0;  // em: least height of a map that has it beside; its height below
+  std::function<void(Canvas&, const Layout&)> draw;
 };
 
 std::string hours_label(double hours) {
@@ -65,6 +72,17 @@ void draw_bar(Canvas& canvas, double x, double y, double width, double height, b
 
 bool any_without_sample(const Profile& p) {
   return std::find(p.valid.begin(), p.valid.end(), std::uint8_t{0}) != p.valid.end();
+}
+
+constexpr double kSwatchStep = 1.9;  // em from one field to the next
+
+void draw_swatch(Canvas& canvas, double x, double y, const Swatch& swatch, double em) {
+  const TextStyle label{.size = 0.85 * em, .colour = kInk};
+  const double thick = std::round(1.3 * em), box = std::round(em);
+  canvas.rectangle(x, y, thick, box, swatch.colour);
+  canvas.frame(x, y, thick, box, kHairline, 1);
+  canvas.text(x + thick + 0.6 * em, y + (box - canvas.measure(swatch.words, label).height) / 2,
+              swatch.words, label);
 }
 
 // Returns the height used.
@@ -102,13 +120,8 @@ double draw_legend(Canvas& canvas, const Layout& at, const Profile& profile, dou
   }
   if (any_without_sample(profile)) {
     y = std::round(y + 0.9 * em);
-    const double box = std::round(em);
-    canvas.rectangle(x, y, thick, box, kNoDataColour);
-    canvas.frame(x, y, thick, box, kHairline, 1);
-    const std::string words = "no surface";
-    canvas.text(x + thick + 0.6 * em, y + (box - canvas.measure(words, label).height) / 2, words,
-                label);
-    y += box;
+    draw_swatch(canvas, x, y, {kNoDataColour, "no surface"}, em);
+    y += std::round(em);
   }
   return y - at.side_y;
 }
@@ -176,6 +189,17 @@ std::string footer(const View& view, const Frame& frame, const PlanCaption& capt
   return line;
 }
 
+void draw_swatches(Canvas& canvas, const Layout& at, const std::string& title,
+                   const std::vector<Swatch>& swatches) {
+  const double em = at.em, x = std::round(at.side_x);
+  double y = at.side_y;
+  y += canvas.text(x, y, title, {.size = em, .colour = kInk, .bold = true}).height + 0.7 * em;
+  for (const Swatch& swatch : swatches) {
+    draw_swatch(canvas, x, std::round(y), swatch, em);
+    y += kSwatchStep * em;
+  }
+}
+
 }  // namespace
 
 double tick_hours(double hours) {
@@ -195,12 +219,10 @@ double round_length(double metres) {
   return power;
 }
 
-Picture draw_plan(const Profile& profile, const View& view, const Frame& frame,
-                  const PlanCaption& caption, const PlanRelief& relief, int threads) {
-  assert(profile.width == view.width && profile.height == view.height);
-  assert(relief.shade.empty() || relief.shade.size() == profile.valid.size());
-  assert(relief.object.empty() || relief.object.size() == profile.valid.size());
-  const Picture map = draw_hours(profile, relief, threads);
+namespace {
+
+Picture draw_page(const Picture& map, const View& view, const Frame& frame,
+                  const PlanCaption& caption, const Legend& legend) {
   const bool plan = is_plan(view);
 
   Layout at;
@@ -208,8 +230,8 @@ Picture draw_plan(const Profile& profile, const View& view, const Frame& frame,
   at.height = map.height;
   at.em = std::clamp(std::max(map.width, map.height) / 66.0, 14.0, 24.0);
   const double em = at.em, margin = std::round(2.4 * em), gap = std::round(1.8 * em);
-  constexpr double kLegendHeight = 20, kNorthHeight = 5.6, kScaleHeight = 3;  // em
-  at.beside = at.height >= (kLegendHeight + (plan ? kNorthHeight + kScaleHeight : 0)) * em;
+  constexpr double kNorthHeight = 5.6, kScaleHeight = 3;  // em
+  at.beside = at.height >= (legend.beside + (plan ? kNorthHeight + kScaleHeight : 0)) * em;
   at.side_width = std::round(10.5 * em);
   constexpr double kNarrowest = 32;  // em, so that titles have room beside a narrow map
   double content = at.width + (at.beside ? gap + at.side_width : 0);
@@ -229,8 +251,7 @@ Picture draw_plan(const Profile& profile, const View& view, const Frame& frame,
   at.top = std::round(at.top + (at.top > margin ? 1.1 * em : 0));
   at.side_x = at.beside ? at.left + at.width + gap : at.left;
   at.side_y = at.beside ? at.top : at.top + at.height + gap;
-  const double below =
-      at.beside ? at.top + at.height : at.side_y + (any_without_sample(profile) ? 8.6 : 5.8) * em;
+  const double below = at.beside ? at.top + at.height : at.side_y + legend.below * em;
   at.footer_y = std::round(below + (at.beside ? 1.4 : 0.6) * em);
   const std::string foot = footer(view, frame, caption);
   at.canvas_height = static_cast<int>(
@@ -244,10 +265,9 @@ Picture draw_plan(const Profile& profile, const View& view, const Frame& frame,
   canvas.image(static_cast<int>(at.left), static_cast<int>(at.top), map);
   canvas.frame(at.left - 1, at.top - 1, at.width + 2, at.height + 2, kHairline, 1);
 
-  const double bar = at.beside ? std::clamp(0.42 * at.height, 12 * em, 20 * em) : 22 * em;
-  draw_legend(canvas, at, profile, bar);
+  legend.draw(canvas, at);
   if (plan) {
-    const double metres_per_pixel = glm::length(view.right) * profile.width / at.width;
+    const double metres_per_pixel = glm::length(view.right) * view.width / at.width;
     const double longest = (at.beside ? at.side_width : 12 * em) * metres_per_pixel;
     const double metres = round_length(longest);
     const double length = metres / metres_per_pixel;
@@ -270,6 +290,32 @@ Picture draw_plan(const Profile& profile, const View& view, const Frame& frame,
   }
   canvas.text(at.left, at.footer_y, foot, small);
   return canvas.picture();
+}
+
+}  // namespace
+
+Picture draw_plan(const Profile& profile, const View& view, const Frame& frame,
+                  const PlanCaption& caption, const PlanRelief& relief, int threads) {
+  assert(profile.width == view.width && profile.height == view.height);
+  assert(relief.shade.empty() || relief.shade.size() == profile.valid.size());
+  assert(relief.object.empty() || relief.object.size() == profile.valid.size());
+  const Legend legend{
+      20, any_without_sample(profile) ? 8.6 : 5.8, [&](Canvas& canvas, const Layout& at) {
+        const double bar =
+            at.beside ? std::clamp(0.42 * at.height, 12 * at.em, 20 * at.em) : 22 * at.em;
+        draw_legend(canvas, at, profile, bar);
+      }};
+  return draw_page(draw_hours(profile, relief, threads), view, frame, caption, legend);
+}
+
+Picture draw_map_page(const Picture& map, const std::string& legend_title,
+                      const std::vector<Swatch>& swatches, const View& view, const Frame& frame,
+                      const PlanCaption& caption) {
+  const double height = 2.2 + kSwatchStep * static_cast<double>(swatches.size());  // em
+  const Legend legend{height + 2, height, [&](Canvas& canvas, const Layout& at) {
+                        draw_swatches(canvas, at, legend_title, swatches);
+                      }};
+  return draw_page(map, view, frame, caption, legend);
 }
 
 Result<FileWritten> write_plan_picture(const std::filesystem::path& path, const Profile& profile,

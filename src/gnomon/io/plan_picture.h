@@ -33,6 +33,18 @@ struct PlanCaption {
 Picture draw_plan(const Profile& profile, const View& view, const Frame& frame,
                   const PlanCaption& caption, const PlanRelief& relief = {}, int threads = 0);
 
+// A field of the legend.
+struct Swatch {
+  Rgb colour;
+  std::string words;
+};
+
+// The same page around any map of the view: fields of colour take the place of the scale of hours.
+// Precondition: `map` shows the whole of `view`, both sides scaled alike.
+Picture draw_map_page(const Picture& map, const std::string& legend_title,
+                      const std::vector<Swatch>& swatches, const View& view, const Frame& frame,
+                      const PlanCaption& caption);
+
 // Draws and writes. Errors: as write_png.
 Result<FileWritten> write_plan_picture(const std::filesystem::path& path, const Profile& profile,
                                        const View& view, const Frame& frame,

@@ -104,7 +104,8 @@ void draw_darkness(Canvas& canvas, double x, double y, double width, int instant
   constexpr int kMostFields = 25;  // more are narrower than their borders
   const int fields = std::min(instants + 1, kMostFields);
   const double height = std::round(1.3 * em);
-  canvas.text(x, y, "Shadows over each other", {.size = 0.85 * em, .colour = kInk, .bold = true});
+  canvas.text(x, y, instants == 1 ? "Shadow" : "Shadows over each other",
+              {.size = 0.85 * em, .colour = kInk, .bold = true});
   y = std::round(y + 1.6 * em);
   double previous = x;
   for (int k = 0; k < fields; ++k) {
@@ -120,8 +121,9 @@ void draw_darkness(Canvas& canvas, double x, double y, double width, int instant
   const TextStyle label{.size = 0.8 * em, .colour = kQuiet};
   TextStyle last = label;
   last.align = Align::right;
-  canvas.text(x, y + height + 0.15 * em, "none", label);
-  canvas.text(x + width, y + height + 0.15 * em, fmt::format("all {}", instants), last);
+  canvas.text(x, y + height + 0.15 * em, instants == 1 ? "lit" : "none", label);
+  canvas.text(x + width, y + height + 0.15 * em,
+              instants == 1 ? "in shadow" : fmt::format("all {}", instants), last);
 }
 
 }  // namespace

@@ -1,67 +1,22 @@
 #include <gnomon/io/write_geotiff.h>
 
-#include <cpl_conv.h>
-#include <cpl_error.h>
-#include <cpl_string.h>
 #include <fmt/format.h>
 #include <gdal.h>
 #include <gdal_frmts.h>
-#include <ogr_spatialref.h>
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <memory>
 #include <mutex>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include <gnomon/core/parallel.h>
+#include <gnomon/io/gdal_support.h>
 
 namespace gnomon {
 namespace {
-
-// GDAL reports through a handler per thread; while one of these lives, its errors come here instead
-// of stderr.
-class GdalErrors {
- public:
-  GdalErrors() { CPLPushErrorHandlerEx(&GdalErrors::collect, this); }
-  ~GdalErrors() { CPLPopErrorHandler(); }
-  GdalErrors(const GdalErrors&) = delete;
-  GdalErrors& operator=(const GdalErrors&) = delete;
-
-  // The first failure is the cause, later ones are its consequences.
-  const std::optional<std::string>& first() const { return first_; }
-
- private:
-  static void CPL_STDCALL collect(CPLErr severity, CPLErrorNum, const char* message) {
-    if (severity < CE_Failure) return;
-    auto* self = static_cast<GdalErrors*>(CPLGetErrorHandlerUserData());
-    if (!self->first_) self->first_ = message;
-  }
-  std::optional<std::string> first_;
-};
-
-struct CloseDataset {
-  void operator()(void* dataset) const { GDALClose(dataset); }
-};
-using Dataset = std::unique_ptr<void, CloseDataset>;
-
-class OptionList {
- public:
-  ~OptionList() { CSLDestroy(list_); }
-  OptionList() = default;
-  OptionList(const OptionList&) = delete;
-  OptionList& operator=(const OptionList&) = delete;
-  void set(const char* key, const std::string& value) {
-    list_ = CSLSetNameValue(list_, key, value.c_str());
-  }
-  char** get() const { return list_; }
-
- private:
-  char** list_ = nullptr;
-};
 
 struct Band {
   const char* description;
@@ -119,15 +74,6 @@ Band make_band(const Profile& p, int threads, const char* description, Milliseco
   return band;
 }
 
-// The horizontal part of a CRS, if it is known; hours have no height.
-std::optional<OGRSpatialReference> horizontal_crs(const std::string& text) {
-  OGRSpatialReference crs;
-  if (crs.SetFromUserInput(text.c_str()) != OGRERR_NONE) return {};
-  if (crs.IsCompound()) crs.StripVertical();
-  crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-  return crs;
-}
-
 void write_band(GDALDatasetH dataset, int index, Band& band, const Profile& p) {
   const GDALRasterBandH out = GDALGetRasterBand(dataset, index);
   GDALSetDescription(out, band.description);
@@ -154,12 +100,6 @@ void write_band(GDALDatasetH dataset, int index, Band& band, const Profile& p) {
   }
 }
 
-Error gdal_error(const std::filesystem::path& path, const std::optional<std::string>& reason) {
-  return {
-      fmt::format("Cannot write {}: {}; check the space on the disk and the folder's permissions.",
-                  path.string(), reason.value_or("GDAL gave no reason"))};
-}
-
 }  // namespace
 
 bool is_plan(const View& v) {
@@ -179,16 +119,11 @@ Result<FileWritten> write_profile_geotiff(const std::filesystem::path& path, con
   std::call_once(registered, [] { GDALRegister_GTiff(); });
 
   GdalErrors errors;
-  std::optional<OGRSpatialReference> crs;
-  const bool georeferenced = is_plan(view);
-  if (georeferenced && !frame.crs.empty()) {
-    crs = horizontal_crs(frame.crs);
-    if (!crs) {
-      return Error{
-          fmt::format("Cannot georeference {}: the coordinate reference system '{}' is not known "
-                      "({}); give one that PROJ knows with --crs, such as EPSG:31256.",
-                      path.string(), frame.crs, errors.first().value_or("PROJ gave no reason"))};
-    }
+  std::optional<Georeference> place;
+  if (is_plan(view)) {
+    Result<Georeference> found = georeference(view, frame, path, errors);
+    if (!found) return found.error();
+    place = std::move(found).value();
   }
 
   Result<AtomicFile> file = AtomicFile::create(path);
@@ -206,15 +141,13 @@ Result<FileWritten> write_profile_geotiff(const std::filesystem::path& path, con
   options.set("BIGTIFF", "IF_SAFER");
   Dataset dataset(GDALCreate(GDALGetDriverByName("GTiff"), file.value().temporary().c_str(),
                              profile.width, profile.height, 2, GDT_Float32, options.get()));
-  if (!dataset) return gdal_error(path, errors.first());
+  if (!dataset) return gdal_error(path, errors);
 
-  if (georeferenced) {
-    // Scene coordinates are metres; the file's are in the CRS's own unit.
-    const double s = crs && crs->IsProjected() ? 1.0 / crs->GetLinearUnits() : 1.0;
-    double transform[6] = {(frame.origin.x + view.origin.x) * s, view.right.x * s, view.down.x * s,
-                           (frame.origin.y + view.origin.y) * s, view.right.y * s, view.down.y * s};
-    GDALSetGeoTransform(dataset.get(), transform);
-    if (crs) GDALSetSpatialRef(dataset.get(), OGRSpatialReference::ToHandle(&*crs));
+  if (place) {
+    GDALSetGeoTransform(dataset.get(), place->transform.data());
+    if (place->crs) {
+      GDALSetSpatialRef(dataset.get(), OGRSpatialReference::ToHandle(&*place->crs));
+    }
   }
   for (const auto& [key, value] : metadata) {
     GDALSetMetadataItem(dataset.get(), key.c_str(), value.c_str(), nullptr);
@@ -228,7 +161,7 @@ Result<FileWritten> write_profile_geotiff(const std::filesystem::path& path, con
     write_band(dataset.get(), 2, band, profile);
   }
   dataset.reset();  // the directory and the last tiles are written now, and may fail now
-  if (errors.first()) return gdal_error(path, errors.first());
+  if (errors.first()) return gdal_error(path, errors);
   return file.value().commit();
 }
 

@@ -10,15 +10,9 @@
 #include <gnomon/profile/study_times.h>
 #include <gnomon/raster/count_shadows.h>
 #include <gnomon/raster/visible_surfaces.h>
+#include <gnomon/view/shadow_mask.h>
 
 namespace gnomon {
-
-// Row-major, row 0 at the top.
-struct ShadowMask {
-  static constexpr std::uint8_t kLit = 0, kShadow = 1, kNoSample = 255;
-  int width = 0, height = 0;
-  std::vector<std::uint8_t> state;
-};
 
 // Called with the share of the work done, 0..1, from any thread, one call at a time, never
 // decreasing.
