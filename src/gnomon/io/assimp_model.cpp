@@ -7,7 +7,10 @@
 #include <gnomon/io/assimp_formats.h>
 #include <gnomon/io/assimp_model.h>
 #include <gnomon/io/assimp_scene.h>
+#include <gnomon/io/off.h>
+#include <gnomon/io/ply.h>
 #include <gnomon/io/read_text.h>
+#include <gnomon/io/stl.h>
 #include <assimp/Importer.hpp>
 
 #include <cmath>
@@ -171,7 +174,18 @@ Result<Model> read_assimp(const std::filesystem::path& path, char up, double met
   }
   auto text = read_text(path);
   if (!text) return text.error();
-  return read_with_assimp(name, *format, up, metres_per_unit);
+  const double unit = metres_per_unit != 0 ? metres_per_unit : format->unit;
+  const char file_up = up != 0 ? up : format->up == UpAxis::kY ? 'y' : 'z';
+  switch (format->reader) {
+    case MeshReader::kStl:
+      return read_stl(text.value(), name, file_up, unit);
+    case MeshReader::kPly:
+      return read_ply(text.value(), name, file_up, unit);
+    case MeshReader::kOff:
+      return read_off(text.value(), name, file_up, unit);
+    default:
+      return read_with_assimp(name, *format, up, metres_per_unit);
+  }
 }
 
 }  // namespace gnomon
