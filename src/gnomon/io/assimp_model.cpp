@@ -7,6 +7,7 @@
 #include <gnomon/io/assimp_formats.h>
 #include <gnomon/io/assimp_model.h>
 #include <gnomon/io/assimp_scene.h>
+#include <gnomon/io/gltf.h>
 #include <gnomon/io/off.h>
 #include <gnomon/io/ply.h>
 #include <gnomon/io/read_text.h>
@@ -177,6 +178,11 @@ Result<Model> read_assimp(const std::filesystem::path& path, char up, double met
   const double unit = metres_per_unit != 0 ? metres_per_unit : format->unit;
   const char file_up = up != 0 ? up : format->up == UpAxis::kY ? 'y' : 'z';
   switch (format->reader) {
+    case MeshReader::kGltf: {
+      auto model = read_gltf(text.value(), name);
+      if (model) warn_of_unused(model.value().warnings, name, *format, up, metres_per_unit);
+      return model;
+    }
     case MeshReader::kStl:
       return read_stl(text.value(), name, file_up, unit);
     case MeshReader::kPly:
