@@ -33,6 +33,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   gnomon::app::add_profile(app);
   gnomon::app::add_shadow(app);
+  gnomon::app::add_convert(app);
   gnomon::app::add_inspect(app);
   gnomon::app::add_sun(app);
 #ifdef GNOMON_HAVE_TRACE

@@ -105,6 +105,8 @@ Vec3 turned_towards(const Vec3& normal, const Vec3& to_eye) {
 
 }  // namespace
 
+Rgb surface_colour(const Surface& surface) { return colour_of(kind_of(surface), Vec3(0, 0, 0)); }
+
 PlanRelief plan_relief(const Scene& scene, const Receivers& receivers, int threads) {
   const std::vector<Face> faces = faces_of(scene, threads);
   const Vec3 to_eye(receivers.view.eye.x, receivers.view.eye.y, receivers.view.eye.z);

@@ -11,6 +11,10 @@
 
 namespace gnomon {
 
+// Of the surface's class, as camera pictures have it: clay tones; water, plants and traffic areas
+// tinted. Surfaces of no class have the tone of upright ones.
+Rgb surface_colour(const Surface& surface);
+
 // Relief of level surfaces: the picture stays as it is.
 inline constexpr std::uint8_t kLevelShade = 180;
 // Where there is no sample.
