@@ -69,14 +69,18 @@ bool any_without_sample(const Profile& p) {
 
 // Returns the height used.
 double draw_legend(Canvas& canvas, const Layout& at, const Profile& profile, double length) {
-  const double em = at.em, hours = profile.daylight_ms / 3.6e6;
+  const double em = at.em, hours = daylight_hours(profile);
   const double x = std::round(at.side_x);
   double y = at.side_y;
   y += canvas.text(x, y, "Hours in shadow", {.size = em, .colour = kInk, .bold = true}).height;
   const std::string of =
       hours > 0 ? fmt::format("of {} h with the sun up", hours_label(std::round(hours * 100) / 100))
-                : "the sun is down all the while";
+                : std::string("the sun is down all the while");
   y += canvas.text(x, y, of, {.size = 0.8 * em, .colour = kQuiet}).height;
+  if (profile.days > 1) {
+    const std::string mean = fmt::format("mean per day over {} days", profile.days);
+    y += canvas.text(x, y, mean, {.size = 0.8 * em, .colour = kQuiet}).height;
+  }
   const double thick = std::round(1.3 * em);
   const TextStyle label{.size = 0.85 * em, .colour = kInk};
   y = std::round(y + 0.7 * em);
@@ -230,7 +234,10 @@ Picture draw_plan(const Profile& profile, const View& view, const Frame& frame,
   at.side_x = at.beside ? at.left + at.width + gap : at.left;
   at.side_y = at.beside ? at.top : at.top + at.height + gap;
   const double below =
-      at.beside ? at.top + at.height : at.side_y + (any_without_sample(profile) ? 8.6 : 5.8) * em;
+      at.beside
+          ? at.top + at.height
+          : at.side_y +
+                ((any_without_sample(profile) ? 8.6 : 5.8) + (profile.days > 1 ? 1.1 : 0)) * em;
   at.footer_y = std::round(below + (at.beside ? 1.4 : 0.6) * em);
   const std::string foot = footer(view, frame, caption);
   at.canvas_height = static_cast<int>(
