@@ -145,11 +145,12 @@ void run(const Options& o) {
   Profile profile;
   {
     ProgressBar bar("computing shadows", o.common.quiet);
-    profile = shadow_profile(casters, receivers, samples.midpoints,
-                             {o.common.threads, [&](double share) { bar.show(share); }, &stats});
+    profile =
+        shadow_profile(casters, receivers, samples,
+                       {o.common.threads, [&](double share) { bar.show(share); }, &stats, true});
   }
   watch.stage("profile");
-  if (profile.daylight_ms == 0) {
+  if (profile.daylight_ticks == 0) {
     throw Failure(
         fmt::format("the sun is below the horizon at every step of {}: there is nothing to compute",
                     window_text(o.time.times, samples, place)));
@@ -247,7 +248,7 @@ void run(const Options& o) {
   fmt::print("model: {:.1f} m east-west, {:.1f} m north-south, {:.1f} m high\n",
              box.hi.x - box.lo.x, box.hi.y - box.lo.y, box.hi.z - box.lo.z);
   fmt::print("{}\n{}; {}; the sun was up for {:.2f} h of it\n", title, window, steps,
-             profile.daylight_ms / 3.6e6);
+             daylight_hours(profile));
   fmt::print("{} x {} samples over {} triangles in {:.2f} s\n", view.width, view.height,
              scene.mesh.triangles.size(), watch.total() / 1000);
   for (const std::string& name : staging.names())

@@ -147,14 +147,15 @@ Json result_json(const Profile& p) {
   for (std::size_t k = 0; k < p.valid.size(); ++k) {
     if (p.valid[k] == 0) continue;
     ++samples;
-    sum += p.shadow_ms[k];
-    largest = std::max(largest, p.shadow_ms[k]);
+    sum += shadow_hours(p, k);
+    largest = std::max(largest, p.shadow_ticks[k]);
   }
   return {{"samples", samples},
-          {"daylight_h", p.daylight_ms / 3.6e6},
+          {"days", p.days},
+          {"daylight_h", daylight_hours(p)},
           {"mean_shadow_h",
-           samples == 0 ? Json() : Json(rounded(sum / 3.6e6 / static_cast<double>(samples), 6))},
-          {"max_shadow_h", largest / 3.6e6}};
+           samples == 0 ? Json() : Json(rounded(sum / static_cast<double>(samples), 6))},
+          {"max_shadow_h", hours_per_day(p, largest)}};
 }
 
 }  // namespace

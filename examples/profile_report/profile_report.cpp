@@ -43,7 +43,7 @@ static void report(const char* model, const char* out) {
     ++samples;
   }
   std::printf("%s: %zu triangles, %zu samples, %.2f h of daylight, %.2f h in shadow on average\n",
-              model, scene.mesh.triangles.size(), samples, hours.daylight_ms / 3.6e6,
+              model, scene.mesh.triangles.size(), samples, gnomon::daylight_hours(hours),
               sum / static_cast<double>(samples));
 }
 

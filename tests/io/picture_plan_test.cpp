@@ -27,9 +27,9 @@ Profile even(int width, int height, std::uint32_t shadow_ms) {
   Profile p;
   p.width = width;
   p.height = height;
-  p.daylight_ms = 8 * kHour;
+  p.daylight_ticks = 8 * kHour;
   p.valid.assign(static_cast<std::size_t>(width * height), 1);
-  p.shadow_ms.assign(p.valid.size(), shadow_ms);
+  p.shadow_ticks.assign(p.valid.size(), shadow_ms);
   return p;
 }
 
@@ -68,7 +68,7 @@ TEST(DrawHours, PaintsGreyWhereThereIsNoSample) {
 
 TEST(DrawHours, AveragesHoursAndNotColours) {
   Profile p = even(3200, 2, 0);
-  for (std::size_t k = 0; k < p.shadow_ms.size(); k += 2) p.shadow_ms[k] = 8 * kHour;
+  for (std::size_t k = 0; k < p.shadow_ticks.size(); k += 2) p.shadow_ticks[k] = 8 * kHour;
   const Picture map = draw_hours(p, {}, 0);  // each pixel has as much of 0 as of 8 hours
   EXPECT_EQ(count(map, hours_colour(0.5)), map.pixels.size());
 }
@@ -100,8 +100,8 @@ TEST(DrawHours, DrawsALineWhereTheObjectChanges) {
 
 TEST(DrawHours, IsTheSameForAnyNumberOfThreads) {
   Profile p = even(2000, 300, 0);
-  for (std::size_t k = 0; k < p.shadow_ms.size(); ++k) {
-    p.shadow_ms[k] = static_cast<std::uint32_t>(k * 7919 % (8 * kHour));
+  for (std::size_t k = 0; k < p.shadow_ticks.size(); ++k) {
+    p.shadow_ticks[k] = static_cast<std::uint32_t>(k * 7919 % (8 * kHour));
     p.valid[k] = k % 11 != 0;
   }
   EXPECT_TRUE(draw_hours(p, {}, 1).pixels == draw_hours(p, {}, 5).pixels);
@@ -134,7 +134,7 @@ TEST(DrawPlan, DrawsAnyShapeAndTheNight) {
     const Picture day = draw_plan(p, plan(width, height), {}, kCaption);
     EXPECT_GE(day.width, map_size(width, height).width);
     EXPECT_GT(day.height, map_size(width, height).height);
-    p.daylight_ms = 0;
+    p.daylight_ticks = 0;
     const Picture night = draw_plan(p, plan(width, height), {}, kCaption);
     EXPECT_EQ(night.width, day.width);
   }

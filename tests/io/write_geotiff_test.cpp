@@ -47,10 +47,10 @@ Profile quarters(int width, int height) {
   Profile p;
   p.width = width;
   p.height = height;
-  p.daylight_ms = 8 * 3'600'000;
+  p.daylight_ticks = 8 * 3'600'000;
   for (int k = 0; k < width * height; ++k) {
     p.valid.push_back(k % 7 != 0);
-    p.shadow_ms.push_back(k % 7 != 0 ? static_cast<std::uint32_t>(k % 33) * 900'000 : 0);
+    p.shadow_ticks.push_back(k % 7 != 0 ? static_cast<std::uint32_t>(k % 33) * 900'000 : 0);
   }
   return p;
 }
@@ -198,7 +198,7 @@ TEST(WriteGeotiff, CarriesStatisticsAndMetadataInTheFileItself) {
   const TestFolder folder;
   Profile p = quarters(4, 2);
   p.valid = {0, 1, 1, 1, 1, 0, 0, 0};
-  p.shadow_ms = {0, 3'600'000, 7'200'000, 10'800'000, 14'400'000, 0, 0, 0};  // 1 2 3 4 hours
+  p.shadow_ticks = {0, 3'600'000, 7'200'000, 10'800'000, 14'400'000, 0, 0, 0};  // 1 2 3 4 hours
   ASSERT_TRUE(write_profile_geotiff(folder / "profile.tif", p, plan(4, 2, 1), vienna(),
                                     {{"date", "2024-09-18"}, {"TIFFTAG_SOFTWARE", "gnomon"}}));
   EXPECT_EQ(folder.names(), std::vector<std::string>{"profile.tif"}) << "no .aux.xml, no temporary";
@@ -258,7 +258,7 @@ TEST(WriteGeotiff, LeavesTheOlderFileWhenTheDiskIsFull) {
   ASSERT_TRUE(write_text_file(folder / "profile.tif", "older result"));
   Profile p = quarters(700, 700);
   std::mt19937 noise(1);  // does not compress
-  for (std::uint32_t& ms : p.shadow_ms) ms = static_cast<std::uint32_t>(noise() % p.daylight_ms);
+  for (std::uint32_t& ms : p.shadow_ticks) ms = static_cast<std::uint32_t>(noise() % p.daylight_ticks);
   // Full from the start, after some tiles, and only when the directory is written at the end.
   for (const rlim_t bytes : {rlim_t{10}, rlim_t{100'000}, rlim_t{1'500'000}}) {
     ::testing::internal::CaptureStderr();

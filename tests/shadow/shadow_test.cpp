@@ -44,16 +44,16 @@ TEST(ShadowProfile, EveryMillisecondOfDaylightIsShadowOrSun) {
                                     .every = "30min",
                                     .zone = "Europe/Vienna"})
                         .value();
-  EXPECT_LT(p.daylight_ms, 16u * 3600000u);  // the sun was down at both ends
-  EXPECT_GT(p.daylight_ms, 11u * 3600000u);
+  EXPECT_LT(p.daylight_ticks, 16u * 3600000u);  // the sun was down at both ends
+  EXPECT_GT(p.daylight_ticks, 11u * 3600000u);
   std::uint32_t most = 0;
-  for (std::size_t k = 0; k < p.shadow_ms.size(); ++k) {
-    ASSERT_LE(p.shadow_ms[k], p.daylight_ms);
-    ASSERT_EQ(p.shadow_ms[k] % 1800000u, 0u);
-    most = std::max(most, p.shadow_ms[k]);
+  for (std::size_t k = 0; k < p.shadow_ticks.size(); ++k) {
+    ASSERT_LE(p.shadow_ticks[k], p.daylight_ticks);
+    ASSERT_EQ(p.shadow_ticks[k] % 1800000u, 0u);
+    most = std::max(most, p.shadow_ticks[k]);
   }
   EXPECT_GT(most, 4u * 3600000u);
-  EXPECT_EQ(p.shadow_ms[static_cast<std::size_t>(50 * 100 + 50)], 0u);  // the roof
+  EXPECT_EQ(p.shadow_ticks[static_cast<std::size_t>(50 * 100 + 50)], 0u);  // the roof
 }
 
 TEST(ShadowProfile, IsTheSumOfItsMasks) {
@@ -67,14 +67,14 @@ TEST(ShadowProfile, IsTheSumOfItsMasks) {
   const Casters casters = prepare_casters(s);
   const Receivers r = visible_surfaces(s, v);
   const Profile p = shadow_profile(casters, r, t.midpoints);
-  std::vector<std::uint32_t> sum(p.shadow_ms.size(), 0);
+  std::vector<std::uint32_t> sum(p.shadow_ticks.size(), 0);
   for (const TimeSample& m : t.midpoints) {
     if (!m.up) continue;
     const ShadowMask mask = cast_shadows(casters, r, m.light);
     for (std::size_t k = 0; k < sum.size(); ++k)
       sum[k] += mask.state[k] == ShadowMask::kShadow ? m.weight_ms : 0;
   }
-  EXPECT_EQ(sum, p.shadow_ms);
+  EXPECT_EQ(sum, p.shadow_ticks);
 }
 
 TEST(ShadowProfile, SceneWithoutPlaceIsAnErrorThatSaysSo) {

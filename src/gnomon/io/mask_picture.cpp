@@ -32,12 +32,12 @@ Picture draw_mask(const ShadowMask& mask, const PlanRelief& relief, int threads)
   Profile moment;
   moment.width = mask.width;
   moment.height = mask.height;
-  moment.daylight_ms = 1;
-  moment.shadow_ms.resize(mask.state.size());
+  moment.daylight_ticks = 1;
+  moment.shadow_ticks.resize(mask.state.size());
   moment.valid.resize(mask.state.size());
   for (std::size_t k = 0; k < mask.state.size(); ++k) {
     moment.valid[k] = mask.state[k] != ShadowMask::kNoSample;
-    moment.shadow_ms[k] = mask.state[k] == ShadowMask::kShadow ? 1 : 0;
+    moment.shadow_ticks[k] = mask.state[k] == ShadowMask::kShadow ? 1 : 0;
   }
   return draw_hours(moment, relief, mask_colours(), threads);
 }

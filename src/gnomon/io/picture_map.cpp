@@ -68,7 +68,7 @@ Picture draw_enlarged(const Profile& p, const PlanRelief& relief, const MapSize&
                       const std::array<Rgb, 256>& colours, int threads) {
   Picture out{size.width, size.height, {}};
   out.pixels.resize(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height));
-  const float per_ms = p.daylight_ms > 0 ? 1.0F / static_cast<float>(p.daylight_ms) : 0.0F;
+  const float per_tick = p.daylight_ticks > 0 ? 1.0F / static_cast<float>(p.daylight_ticks) : 0.0F;
   const int line = std::max(1, size.enlarged / 12);  // pixels
   const std::size_t width = static_cast<std::size_t>(p.width);
   parallel_for(size.height, threads, [&](int y) {
@@ -79,7 +79,7 @@ Picture draw_enlarged(const Profile& p, const PlanRelief& relief, const MapSize&
           static_cast<std::size_t>(row) * width + static_cast<std::size_t>(column);
       Cell cell;
       cell.valid = p.valid[k] ? 1.0F : 0.0F;
-      cell.share = static_cast<float>(p.shadow_ms[k]) * per_ms;
+      cell.share = static_cast<float>(p.shadow_ticks[k]) * per_tick;
       if (!relief.shade.empty()) cell.shade = relief.shade[k];
       if (!relief.object.empty()) {
         const bool at_right = x % size.enlarged >= size.enlarged - line && column + 1 < p.width;
@@ -98,7 +98,7 @@ Picture draw_shrunk(const Profile& p, const PlanRelief& relief, const MapSize& s
                     const std::array<Rgb, 256>& colours, int threads) {
   Picture out{size.width, size.height, {}};
   out.pixels.resize(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height));
-  const float per_ms = p.daylight_ms > 0 ? 1.0F / static_cast<float>(p.daylight_ms) : 0.0F;
+  const float per_tick = p.daylight_ticks > 0 ? 1.0F / static_cast<float>(p.daylight_ticks) : 0.0F;
   const double rows_each = static_cast<double>(p.height) / size.height;
   const double columns_each = static_cast<double>(p.width) / size.width;
   const std::size_t width = static_cast<std::size_t>(p.width);
@@ -117,7 +117,7 @@ Picture draw_shrunk(const Profile& p, const PlanRelief& relief, const MapSize& s
         const std::size_t k = begin + column;
         const float valid = p.valid[k] ? weight : 0.0F;
         strip[column].valid += valid;
-        strip[column].share += valid * static_cast<float>(p.shadow_ms[k]);
+        strip[column].share += valid * static_cast<float>(p.shadow_ticks[k]);
       }
       if (!relief.shade.empty()) {
         for (std::size_t column = 0; column < width; ++column) {
@@ -153,7 +153,7 @@ Picture draw_shrunk(const Profile& p, const PlanRelief& relief, const MapSize& s
       Cell cell;
       cell.valid = std::min(1.0F, sums.valid / area);
       if (sums.valid > 0) {
-        cell.share = sums.share / sums.valid * per_ms;
+        cell.share = sums.share / sums.valid * per_tick;
         if (!relief.shade.empty()) cell.shade = sums.shade / sums.valid;
       }
       cell.outline = std::min(1.0F, thicken * sums.outline / area);

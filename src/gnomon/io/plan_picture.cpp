@@ -87,14 +87,18 @@ void draw_swatch(Canvas& canvas, double x, double y, const Swatch& swatch, doubl
 
 // Returns the height used.
 double draw_legend(Canvas& canvas, const Layout& at, const Profile& profile, double length) {
-  const double em = at.em, hours = profile.daylight_ms / 3.6e6;
+  const double em = at.em, hours = daylight_hours(profile);
   const double x = std::round(at.side_x);
   double y = at.side_y;
   y += canvas.text(x, y, "Hours in shadow", {.size = em, .colour = kInk, .bold = true}).height;
   const std::string of =
       hours > 0 ? fmt::format("of {} h with the sun up", hours_label(std::round(hours * 100) / 100))
-                : "the sun is down all the while";
+                : std::string("the sun is down all the while");
   y += canvas.text(x, y, of, {.size = 0.8 * em, .colour = kQuiet}).height;
+  if (profile.days > 1) {
+    const std::string mean = fmt::format("mean per day over {} days", profile.days);
+    y += canvas.text(x, y, mean, {.size = 0.8 * em, .colour = kQuiet}).height;
+  }
   const double thick = std::round(1.3 * em);
   const TextStyle label{.size = 0.85 * em, .colour = kInk};
   y = std::round(y + 0.7 * em);
@@ -299,12 +303,13 @@ Picture draw_plan(const Profile& profile, const View& view, const Frame& frame,
   assert(profile.width == view.width && profile.height == view.height);
   assert(relief.shade.empty() || relief.shade.size() == profile.valid.size());
   assert(relief.object.empty() || relief.object.size() == profile.valid.size());
-  const Legend legend{
-      20, any_without_sample(profile) ? 8.6 : 5.8, [&](Canvas& canvas, const Layout& at) {
-        const double bar =
-            at.beside ? std::clamp(0.42 * at.height, 12 * at.em, 20 * at.em) : 22 * at.em;
-        draw_legend(canvas, at, profile, bar);
-      }};
+  const Legend legend{20, (any_without_sample(profile) ? 8.6 : 5.8) + (profile.days > 1 ? 1.1 : 0),
+                      [&](Canvas& canvas, const Layout& at) {
+                        const double bar =
+                            at.beside ? std::clamp(0.42 * at.height, 12 * at.em, 20 * at.em)
+                                      : 22 * at.em;
+                        draw_legend(canvas, at, profile, bar);
+                      }};
   return draw_page(draw_hours(profile, relief, threads), view, frame, caption, legend);
 }
 

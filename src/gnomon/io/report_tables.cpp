@@ -95,22 +95,27 @@ std::string longitude_text(double radians) {
 }
 
 ReportTable hours_table(const Profile& profile, double sample_area) {
-  const double daylight = profile.daylight_ms / kHour;
+  const double daylight = daylight_hours(profile);
   const double step = class_hours(daylight);
-  const auto step_ms = static_cast<std::uint32_t>(std::llround(step * kHour));
+  // Of all days together, in milliseconds: whole numbers, so that the classes are exact.
+  const std::uint64_t step_ms = static_cast<std::uint64_t>(std::llround(step * kHour)) *
+                                static_cast<std::uint64_t>(profile.days);
+  const auto steps_in = [&](std::uint32_t ticks) {  // rounded up
+    return (std::uint64_t{ticks} * profile.tick_ms + step_ms - 1) / step_ms;
+  };
   // counts[0]: no shadow; counts[k]: ((k - 1) steps, k steps]; the last one ends with the daylight.
-  std::vector<std::size_t> counts(1 + (profile.daylight_ms + step_ms - 1) / step_ms);
+  std::vector<std::size_t> counts(1 + steps_in(profile.daylight_ticks));
   std::size_t samples = 0;
   for (std::size_t k = 0; k < profile.valid.size(); ++k) {
     if (profile.valid[k] == 0) continue;
     ++samples;
-    ++counts[(profile.shadow_ms[k] + step_ms - 1) / step_ms];
+    ++counts[steps_in(profile.shadow_ticks[k])];
   }
   const double all = static_cast<double>(std::max<std::size_t>(samples, 1));
 
   ReportTable table;
   table.title = "Area by hours in shadow";
-  table.header = {"Hours in shadow"};
+  table.header = {profile.days > 1 ? "Hours in shadow per day" : "Hours in shadow"};
   if (sample_area > 0) table.header.push_back("Area, m\u00b2");
   table.header.push_back("Share");
   for (std::size_t k = 0; k < counts.size(); ++k) {
@@ -146,24 +151,27 @@ ReportFacts hours_facts(const Profile& profile) {
   for (std::size_t k = 0; k < profile.valid.size(); ++k) {
     if (profile.valid[k] == 0) continue;
     ++samples;
-    sum += profile.shadow_ms[k];
-    longest = std::max(longest, profile.shadow_ms[k]);
-    never += profile.shadow_ms[k] == 0 ? 1 : 0;
-    always += profile.shadow_ms[k] == profile.daylight_ms ? 1 : 0;
+    sum += profile.shadow_ticks[k];
+    longest = std::max(longest, profile.shadow_ticks[k]);
+    never += profile.shadow_ticks[k] == 0 ? 1 : 0;
+    always += profile.shadow_ticks[k] == profile.daylight_ticks ? 1 : 0;
   }
+  const double ms_per_tick = static_cast<double>(profile.tick_ms) / profile.days;
+  const double daylight = profile.daylight_ticks * ms_per_tick;
+  const std::string per_day = profile.days > 1 ? " per day" : "";
   ReportFacts facts{
-      {"Sun above the horizon", duration_text(profile.daylight_ms) + " of the window"}};
+      {"Sun above the horizon" + per_day, duration_text(daylight) + " of the window"}};
   if (samples == 0) {
     facts.emplace_back("Time in shadow", "no sample meets a surface");
     return facts;
   }
   const double all = static_cast<double>(samples);
-  const double mean = sum / all;
-  facts.emplace_back("Mean time in shadow",
+  const double mean = sum / all * ms_per_tick;
+  facts.emplace_back("Mean time in shadow" + per_day,
                      fmt::format("{} ({:.1f} % of the daylight)", duration_text(mean),
-                                 profile.daylight_ms > 0 ? 100 * mean / profile.daylight_ms : 0.0));
-  facts.emplace_back("Mean time of sun", duration_text(profile.daylight_ms - mean));
-  facts.emplace_back("Longest time in shadow", duration_text(longest));
+                                 daylight > 0 ? 100 * mean / daylight : 0.0));
+  facts.emplace_back("Mean time of sun" + per_day, duration_text(daylight - mean));
+  facts.emplace_back("Longest time in shadow" + per_day, duration_text(longest * ms_per_tick));
   facts.emplace_back("Never in shadow",
                      share_text(static_cast<double>(never) / all) + " of the area");
   facts.emplace_back("Always in shadow",

@@ -7,8 +7,10 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -19,37 +21,36 @@ namespace gnomon {
 namespace {
 
 struct Band {
-  const char* description;
+  std::string description;
   std::vector<float> hours;  // kNoDataHours where there is no sample
   std::size_t valid = 0;
   double min = 0, max = 0, mean = 0, deviation = 0;  // of the valid samples
 };
 
-// Statistics from whole milliseconds and sums per row, added in row order: the same digits for any
-// number of threads.
-template <class Milliseconds>
-Band make_band(const Profile& p, int threads, const char* description, Milliseconds milliseconds) {
+// value(k): hours of sample k; has(k): whether there are any. Sums per row, added in row order: the
+// same digits for any number of threads.
+template <class Has, class Value>
+Band make_band(const Profile& p, int threads, std::string description, Has has, Value value) {
   struct RowSums {
     std::size_t valid = 0;
-    std::uint32_t min = 0xffffffffu, max = 0;
+    double min = std::numeric_limits<double>::infinity(), max = -min;
     double sum = 0, squares = 0;
   };
-  Band band{description, std::vector<float>(p.valid.size()), 0, 0, 0, 0, 0};
+  Band band{std::move(description), std::vector<float>(p.valid.size()), 0, 0, 0, 0, 0};
   std::vector<RowSums> rows(static_cast<std::size_t>(p.height));
   parallel_for(p.height, threads, [&](int row) {
     RowSums sums;
     const std::size_t begin = static_cast<std::size_t>(row) * static_cast<std::size_t>(p.width);
     for (std::size_t k = begin; k < begin + static_cast<std::size_t>(p.width); ++k) {
-      if (!p.valid[k]) {
+      if (!has(k)) {
         band.hours[k] = kNoDataHours;
         continue;
       }
-      const std::uint32_t ms = milliseconds(k);
-      band.hours[k] = static_cast<float>(ms / 3.6e6);
+      const double hours = value(k);
+      band.hours[k] = static_cast<float>(hours);
       ++sums.valid;
-      sums.min = std::min(sums.min, ms);
-      sums.max = std::max(sums.max, ms);
-      const double hours = ms / 3.6e6;
+      sums.min = std::min(sums.min, hours);
+      sums.max = std::max(sums.max, hours);
       sums.sum += hours;
       sums.squares += hours * hours;
     }
@@ -66,8 +67,8 @@ Band make_band(const Profile& p, int threads, const char* description, Milliseco
   band.valid = all.valid;
   if (all.valid > 0) {
     const double n = static_cast<double>(all.valid);
-    band.min = all.min / 3.6e6;
-    band.max = all.max / 3.6e6;
+    band.min = all.min;
+    band.max = all.max;
     band.mean = all.sum / n;
     band.deviation = std::sqrt(std::max(0.0, all.squares / n - band.mean * band.mean));
   }
@@ -76,7 +77,7 @@ Band make_band(const Profile& p, int threads, const char* description, Milliseco
 
 void write_band(GDALDatasetH dataset, int index, Band& band, const Profile& p) {
   const GDALRasterBandH out = GDALGetRasterBand(dataset, index);
-  GDALSetDescription(out, band.description);
+  GDALSetDescription(out, band.description.c_str());
   GDALSetRasterUnitType(out, "h");
   GDALSetRasterNoDataValue(out, static_cast<double>(kNoDataHours));
   if (band.valid > 0) {
@@ -129,6 +130,8 @@ Result<FileWritten> write_profile_geotiff(const std::filesystem::path& path, con
   Result<AtomicFile> file = AtomicFile::create(path);
   if (!file) return file.error();
 
+  const bool clock = !profile.first_lit.empty();
+  const int bands = clock ? 4 : 2;
   OptionList options;
   options.set("TILED", "YES");
   options.set("BLOCKXSIZE", std::to_string(packing.tile));
@@ -140,7 +143,7 @@ Result<FileWritten> write_profile_geotiff(const std::filesystem::path& path, con
   options.set("NUM_THREADS", packing.threads > 0 ? std::to_string(packing.threads) : "ALL_CPUS");
   options.set("BIGTIFF", "IF_SAFER");
   Dataset dataset(GDALCreate(GDALGetDriverByName("GTiff"), file.value().temporary().c_str(),
-                             profile.width, profile.height, 2, GDT_Float32, options.get()));
+                             profile.width, profile.height, bands, GDT_Float32, options.get()));
   if (!dataset) return gdal_error(path, errors);
 
   if (place) {
@@ -152,13 +155,26 @@ Result<FileWritten> write_profile_geotiff(const std::filesystem::path& path, con
   for (const auto& [key, value] : metadata) {
     GDALSetMetadataItem(dataset.get(), key.c_str(), value.c_str(), nullptr);
   }
-  const auto shadow = [&](std::size_t k) { return profile.shadow_ms[k]; };
-  const auto sun = [&](std::size_t k) { return profile.daylight_ms - profile.shadow_ms[k]; };
-  Band band = make_band(profile, packing.threads, "hours in shadow", shadow);
-  write_band(dataset.get(), 1, band, profile);
-  if (!errors.first()) {
-    band = make_band(profile, packing.threads, "hours of sun", sun);
-    write_band(dataset.get(), 2, band, profile);
+  GDALSetMetadataItem(dataset.get(), "DAYS", std::to_string(profile.days).c_str(), nullptr);
+  int index = 0;
+  // One band in memory at a time.
+  const auto write = [&](const std::string& description, auto has, auto value) {
+    ++index;
+    if (errors.first()) return;
+    Band band = make_band(profile, packing.threads, description, has, value);
+    write_band(dataset.get(), index, band, profile);
+  };
+  const std::string per_day = profile.days > 1 ? " per day" : "";
+  const auto valid = [&](std::size_t k) { return profile.valid[k] != 0; };
+  const auto lit = [&](std::size_t k) {
+    return profile.valid[k] != 0 && profile.first_lit[k] != kNeverLit;
+  };
+  write("hours in shadow" + per_day, valid,
+        [&](std::size_t k) { return shadow_hours(profile, k); });
+  write("hours of sun" + per_day, valid, [&](std::size_t k) { return sun_hours(profile, k); });
+  if (clock) {
+    write("first sun", lit, [&](std::size_t k) { return first_sun_clock(profile, k); });
+    write("last sun", lit, [&](std::size_t k) { return last_sun_clock(profile, k); });
   }
   dataset.reset();  // the directory and the last tiles are written now, and may fail now
   if (errors.first()) return gdal_error(path, errors);

@@ -5,6 +5,8 @@
 #include <optional>
 #include <string_view>
 
+#include <gnomon/profile/study_dates.h>
+#include <gnomon/profile/take.h>
 #include <gnomon/sun/spa.h>
 #include <gnomon/sun/time_zone.h>
 
@@ -20,43 +22,11 @@ using std::chrono::seconds;
 using std::chrono::year_month_day;
 
 constexpr milliseconds kLongestStep = hours(24);
-constexpr std::int64_t kMostSteps = 100000;  // a second's step over a day, and a little more
-constexpr int kLastYear = 6000;              // of the sun's algorithm
+// A second's step over a day, and a little more; five minutes over a year.
+constexpr std::int64_t kMostSteps = 100000;
 
 // The sun's transit on a clock that suits the place: China's reaches 15:10.
 constexpr milliseconds kStrangeNoon = hours(5);
-
-// A number of `digits` decimal digits at the front of `text`, which it removes.
-std::optional<int> take_number(std::string_view& text, std::size_t digits) {
-  if (text.size() < digits) return {};
-  int value = 0;
-  for (char c : text.substr(0, digits)) {
-    if (c < '0' || c > '9') return {};
-    value = value * 10 + (c - '0');
-  }
-  text.remove_prefix(digits);
-  return value;
-}
-
-bool take(std::string_view& text, std::string_view what) {
-  if (!text.starts_with(what)) return false;
-  text.remove_prefix(what.size());
-  return true;
-}
-
-std::optional<year_month_day> read_date(std::string_view text) {
-  const auto year = take_number(text, 4);
-  if (!year || !take(text, "-")) return {};
-  const auto month = take_number(text, 2);
-  if (!month || !take(text, "-")) return {};
-  const auto day = take_number(text, 2);
-  if (!day || !text.empty() || *year < 1 || *year > kLastYear) return {};
-  const year_month_day date{std::chrono::year(*year),
-                            std::chrono::month(static_cast<unsigned>(*month)),
-                            std::chrono::day(static_cast<unsigned>(*day))};
-  if (!date.ok()) return {};
-  return date;
-}
 
 // Time since the clock's midnight, up to 24:00.
 std::optional<milliseconds> read_clock(std::string_view text) {
@@ -117,6 +87,8 @@ Result<Date> find_day(const std::string& text, const std::string& zone, const Pl
                       const Atmosphere& air) {
   if (text.empty()) return Error{"no date given: add --date YYYY-MM-DD"};
   const auto date = read_date(text);
+  if (!date && text.find("..") != std::string::npos)
+    return Error{"'" + text + "' is a range of dates where one date is wanted: write YYYY-MM-DD"};
   if (!date)
     return Error{
         "the date '" + text +
@@ -168,14 +140,17 @@ struct FoundEnd {
   ClockTime clock;  // as given, not by way of UTC and its rounding
 };
 
+// Sets `night` where the error is that the sun does not rise.
 Result<FoundEnd> find_end(const End& end, const Date& date, const StudyTimes& times,
-                          const Place& place, Warnings& warnings) {
+                          const Place& place, Warnings& warnings, bool& night) {
   const bool is_from = std::string_view(end.option) == "--from";
   if (end.text.empty()) {
     if (end.event) return FoundEnd{*end.event, utc_to_clock(times.zone, place, *end.event).value()};
-    if (date.day.arc.polar_night || date.day.sun.polar_night)
+    if (date.day.arc.polar_night || date.day.sun.polar_night) {
+      night = true;
       return Error{"the sun does not rise on " + times.date +
                    " at this place: choose another date, or give --from and --to"};
+    }
     warn(warnings,
          is_from
              ? "the sun does not rise on this date, it is already up: the window begins at 00:00"
@@ -212,17 +187,14 @@ Result<FoundEnd> find_end(const End& end, const Date& date, const StudyTimes& ti
   return FoundEnd{utc, clock};
 }
 
-}  // namespace
+struct DayWindow {
+  year_month_day date;
+  StudyWindow window;
+};
 
-Result<LocalDay> local_day(const std::string& date, const std::string& zone, const Place& place,
-                           const Atmosphere& air) {
-  const Result<Date> found = find_day(date, zone, place, air);
-  if (!found) return found.error();
-  return found.value().day;
-}
-
-Result<StudyWindow> study_window(const StudyTimes& times, const Place& place,
-                                 const Atmosphere& air) {
+// The window and its day. Sets `night` where the error is that the sun does not rise.
+Result<DayWindow> day_window(const StudyTimes& times, const Place& place, const Atmosphere& air,
+                             bool& night) {
   const auto step = read_step(times.every);
   if (!step)
     return Error{"the step '" + times.every +
@@ -236,10 +208,10 @@ Result<StudyWindow> study_window(const StudyTimes& times, const Place& place,
 
   StudyWindow window;
   const End from{"--from", times.from, date.day.arc.sunrise, date.day.begin};
-  const Result<FoundEnd> begin = find_end(from, date, times, place, window.warnings);
+  const Result<FoundEnd> begin = find_end(from, date, times, place, window.warnings, night);
   if (!begin) return begin.error();
   const End to{"--to", times.to, date.day.arc.sunset, date.day.end};
-  const Result<FoundEnd> end = find_end(to, date, times, place, window.warnings);
+  const Result<FoundEnd> end = find_end(to, date, times, place, window.warnings, night);
   if (!end) return end.error();
   window.begin = begin.value().utc;
   window.end = end.value().utc;
@@ -255,14 +227,22 @@ Result<StudyWindow> study_window(const StudyTimes& times, const Place& place,
   if (steps > kMostSteps)
     return Error{"the step '" + times.every + "' cuts the window into more than " +
                  std::to_string(kMostSteps) + " steps: give a longer --every"};
-  window.edges.push_back(window.begin);
+  const auto edge = [&](Instant utc, ClockTime clock) {
+    window.edges.push_back(utc);
+    window.clocks.push_back(clock);
+  };
+  edge(window.begin, begin.value().clock);
   for (std::int64_t k = 1; k < steps; ++k) {
     const milliseconds passed = k * *step;
-    window.edges.push_back(
-        solar ? clock_to_utc(times.zone, place, begin.value().clock + passed).value().utc
-              : window.begin + passed);
+    if (solar) {
+      const ClockTime clock = begin.value().clock + passed;
+      edge(clock_to_utc(times.zone, place, clock).value().utc, clock);
+    } else {
+      const Instant utc = window.begin + passed;
+      edge(utc, utc_to_clock(times.zone, place, utc).value());
+    }
   }
-  window.edges.push_back(window.end);
+  edge(window.end, end.value().clock);
   if (remainder)
     warn(window.warnings, "the window is not a whole number of steps: the last step is shorter",
          times.every);
@@ -273,23 +253,27 @@ Result<StudyWindow> study_window(const StudyTimes& times, const Place& place,
          "the sun is highest more than 5 hours from 12:00 on this clock: check --tz and the "
          "place's longitude",
          times.zone);
-  return window;
+  return DayWindow{date.date, std::move(window)};
 }
 
-Result<Samples> study_samples(const StudyTimes& times, const Place& place, double true_north,
-                              const Atmosphere& air) {
-  const Result<StudyWindow> found = study_window(times, place, air);
-  if (!found) return found.error();
-  const StudyWindow& window = found.value();
-
-  Samples samples;
-  samples.begin = window.begin;
+// Adds the steps of the study's `day`-th date.
+void add_day(Samples& samples, const DayWindow& on, std::size_t day, const Place& place,
+             double true_north, const Atmosphere& air) {
+  const StudyWindow& window = on.window;
+  if (samples.midpoints.empty()) samples.begin = window.begin;
   samples.end = window.end;
-  samples.warnings = window.warnings;
-  const auto sample = [&](Instant utc, milliseconds weight) {
+  append(samples.warnings, window.warnings);
+  const ClockTime midnight{std::chrono::sys_days{on.date}.time_since_epoch()};
+  const auto on_clock_ms = [&](std::size_t edge) {
+    return static_cast<std::int32_t>((window.clocks[edge] - midnight).count());
+  };
+  const auto sample = [&](Instant utc, milliseconds weight, std::size_t first, std::size_t last) {
     TimeSample s;
     s.utc = utc;
     s.weight_ms = static_cast<std::uint32_t>(weight.count());
+    s.day = static_cast<std::uint32_t>(day);
+    s.clock_begin_ms = on_clock_ms(first);
+    s.clock_end_ms = on_clock_ms(last);
     s.sun = sun_position(utc, place, air);
     s.light = sun_direction(s.sun, true_north);
     s.up = s.sun.altitude_apparent > 0;
@@ -297,18 +281,64 @@ Result<Samples> study_samples(const StudyTimes& times, const Place& place, doubl
   };
   std::size_t nights = 0;
   std::string first_night;
-  for (std::size_t k = 0; k + 1 < window.edges.size(); ++k) {
+  const std::size_t steps = window.edges.size() - 1;
+  for (std::size_t k = 0; k < steps; ++k) {
     const Instant t = window.edges[k];
     const milliseconds length = window.edges[k + 1] - t;
-    samples.midpoints.push_back(sample(t + length / 2, length));
-    samples.instants.push_back(sample(t, milliseconds(0)));
+    samples.midpoints.push_back(sample(t + length / 2, length, k, k + 1));
+    samples.instants.push_back(sample(t, milliseconds(0), k, k));
     const TimeSample& middle = samples.midpoints.back();
     if (!middle.up && nights++ == 0) first_night = iso_text(middle.utc);
   }
-  samples.instants.push_back(sample(window.end, milliseconds(0)));
+  samples.instants.push_back(sample(window.end, milliseconds(0), steps, steps));
   warn(samples.warnings,
        "the sun is below the horizon in the middle of this step: the step contributes nothing",
        first_night, nights);
+}
+
+}  // namespace
+
+Result<LocalDay> local_day(const std::string& date, const std::string& zone, const Place& place,
+                           const Atmosphere& air) {
+  const Result<Date> found = find_day(date, zone, place, air);
+  if (!found) return found.error();
+  return found.value().day;
+}
+
+Result<StudyWindow> study_window(const StudyTimes& times, const Place& place,
+                                 const Atmosphere& air) {
+  bool night = false;
+  Result<DayWindow> found = day_window(times, place, air, night);
+  if (!found) return found.error();
+  return std::move(found).value().window;
+}
+
+Result<Samples> study_samples(const StudyTimes& times, const Place& place, double true_north,
+                              const Atmosphere& air) {
+  Result<std::vector<std::string>> dates = study_dates(times.date);
+  if (!dates) return dates.error();
+  Samples samples;
+  samples.dates = std::move(dates).value();
+  StudyTimes of_day = times;
+  for (std::size_t k = 0; k < samples.dates.size(); ++k) {
+    of_day.date = samples.dates[k];
+    bool night = false;
+    const Result<DayWindow> found = day_window(of_day, place, air, night);
+    if (!found) {
+      if (!night || samples.dates.size() == 1) return found.error();
+      warn(samples.warnings,
+           "the sun does not rise on this date: it counts as a day without daylight", of_day.date);
+      continue;
+    }
+    add_day(samples, found.value(), k, place, true_north, air);
+    if (static_cast<std::int64_t>(samples.midpoints.size()) > kMostSteps)
+      return Error{"the step '" + times.every + "' cuts the dates '" + times.date +
+                   "' into more than " + std::to_string(kMostSteps) +
+                   " steps: give a longer --every, or take every 7th day (/7d)"};
+  }
+  if (samples.midpoints.empty())
+    return Error{"the sun does not rise on any day of " + times.date +
+                 " at this place: choose other dates, or give --from and --to"};
   return samples;
 }
 

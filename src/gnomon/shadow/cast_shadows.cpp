@@ -1,9 +1,14 @@
 #include <gnomon/shadow/cast_shadows.h>
 
 #include <algorithm>
+#include <cassert>
+#include <iterator>
+#include <limits>
 #include <mutex>
 
+#include <gnomon/profile/clock_ranks.h>
 #include <gnomon/raster/add_where_positive.h>
+#include <gnomon/raster/first_and_last_lit.h>
 
 namespace gnomon {
 namespace {
@@ -12,11 +17,11 @@ std::size_t index(const Receivers& r, int row) {
   return static_cast<std::size_t>(row) * static_cast<std::size_t>(r.view.width);
 }
 
-// Adds weights[light] to sums[sample] wherever the light does not reach the sample.
-void add_up(const Casters& casters, const Receivers& receivers, std::span<const Light> lights,
-            std::span<const std::uint32_t> weights, std::vector<std::uint32_t>& sums,
-            const ShadowOptions& options) {
-  sums.assign(receivers.triangle.size(), 0);
+// Hands every row of finished counts to sink(light, counts, width, index of the row's first
+// sample).
+template <class RowSink>
+void for_each_row(const Casters& casters, const Receivers& receivers, std::span<const Light> lights,
+                  const ShadowOptions& options, RowSink sink) {
   std::mutex progress_mutex;
   std::uint64_t done = 0;
   const std::uint64_t total = static_cast<std::uint64_t>(receivers.view.height) * lights.size();
@@ -24,9 +29,9 @@ void add_up(const Casters& casters, const Receivers& receivers, std::span<const 
       casters, receivers, lights,
       [&](const CountBand& band) {
         for (int row = 0; row < band.rows; ++row) {
-          add_where_positive(band.counts + static_cast<std::ptrdiff_t>(row) * band.stride,
-                             band.width, weights[static_cast<std::size_t>(band.light)],
-                             sums.data() + index(receivers, band.first_row + row));
+          sink(static_cast<std::size_t>(band.light),
+               band.counts + static_cast<std::ptrdiff_t>(row) * band.stride, band.width,
+               index(receivers, band.first_row + row));
         }
         if (options.progress) {
           const std::lock_guard lock(progress_mutex);
@@ -36,6 +41,14 @@ void add_up(const Casters& casters, const Receivers& receivers, std::span<const 
       },
       options.threads);
   if (options.stats != nullptr) *options.stats = stats;
+}
+
+constexpr std::uint32_t kCoarseTickMs = 1000;
+
+std::uint32_t tick_for(std::span<const TimeSample> up) {
+  std::uint64_t total = 0;  // milliseconds
+  for (const TimeSample& s : up) total += s.weight_ms;
+  return total <= std::numeric_limits<std::uint32_t>::max() ? 1 : kCoarseTickMs;
 }
 
 }  // namespace
@@ -61,30 +74,70 @@ ShadowMask cast_shadows(const Scene& scene, const Light& light, const View& view
 std::vector<std::uint32_t> count_shaded(const Casters& casters, const Receivers& receivers,
                                         std::span<const Light> lights,
                                         const ShadowOptions& options) {
-  std::vector<std::uint32_t> sums;
-  const std::vector<std::uint32_t> ones(lights.size(), 1);
-  add_up(casters, receivers, lights, ones, sums, options);
+  std::vector<std::uint32_t> sums(receivers.triangle.size(), 0);
+  for_each_row(casters, receivers, lights, options,
+               [&](std::size_t, const std::int32_t* counts, int width, std::size_t first) {
+                 add_where_positive(counts, width, 1, sums.data() + first);
+               });
   return sums;
 }
 
 Profile shadow_profile(const Casters& casters, const Receivers& receivers,
                        std::span<const TimeSample> samples, const ShadowOptions& options) {
+  const std::size_t n = receivers.triangle.size();
   Profile p;
   p.width = receivers.view.width;
   p.height = receivers.view.height;
+  std::vector<TimeSample> up;
+  std::copy_if(samples.begin(), samples.end(), std::back_inserter(up),
+               [](const TimeSample& s) { return s.up; });
+  p.tick_ms = tick_for(up);
   std::vector<Light> lights;
-  std::vector<std::uint32_t> weights;
-  for (const TimeSample& s : samples) {
-    if (!s.up) continue;
+  std::vector<std::uint32_t> weights;  // ticks
+  std::vector<std::int32_t> begins, ends;
+  std::uint64_t daylight = 0;
+  for (const TimeSample& s : up) {
     lights.push_back(s.light);
-    weights.push_back(s.weight_ms);
-    p.daylight_ms += s.weight_ms;
+    weights.push_back(p.tick_ms == 1 ? s.weight_ms
+                                     : s.weight_ms / p.tick_ms +
+                                           (s.weight_ms % p.tick_ms >= p.tick_ms / 2 ? 1 : 0));
+    daylight += weights.back();
+    begins.push_back(s.clock_begin_ms);
+    ends.push_back(s.clock_end_ms);
   }
-  add_up(casters, receivers, lights, weights, p.shadow_ms, options);
-  p.valid.resize(receivers.triangle.size());
+  assert(daylight <= std::numeric_limits<std::uint32_t>::max());
+  p.daylight_ticks = static_cast<std::uint32_t>(daylight);
+  p.shadow_ticks.assign(n, 0);
+  if (options.first_and_last) {
+    ClockRanks from = rank_clock_times(begins, SharedRank::kEarliest);
+    ClockRanks to = rank_clock_times(ends, SharedRank::kLatest);
+    p.first_lit.assign(n, kNeverLit);
+    p.last_lit.assign(n, 0);
+    for_each_row(casters, receivers, lights, options,
+                 [&](std::size_t light, const std::int32_t* counts, int width, std::size_t first) {
+                   add_where_positive(counts, width, weights[light], p.shadow_ticks.data() + first);
+                   keep_first_and_last_lit(counts, width, from.ranks[light], to.ranks[light],
+                                           p.first_lit.data() + first, p.last_lit.data() + first);
+                 });
+    p.lit_from_ms = std::move(from.times);
+    p.lit_to_ms = std::move(to.times);
+  } else {
+    for_each_row(casters, receivers, lights, options,
+                 [&](std::size_t light, const std::int32_t* counts, int width, std::size_t first) {
+                   add_where_positive(counts, width, weights[light], p.shadow_ticks.data() + first);
+                 });
+  }
+  p.valid.resize(n);
   std::transform(
       receivers.triangle.begin(), receivers.triangle.end(), p.valid.begin(),
       [](std::uint32_t t) { return static_cast<std::uint8_t>(t != kNoTriangle ? 1 : 0); });
+  return p;
+}
+
+Profile shadow_profile(const Casters& casters, const Receivers& receivers, const Samples& samples,
+                       const ShadowOptions& options) {
+  Profile p = shadow_profile(casters, receivers, std::span(samples.midpoints), options);
+  p.days = static_cast<int>(samples.dates.size());
   return p;
 }
 
@@ -98,7 +151,7 @@ Result<Profile> shadow_profile(const Scene& scene, const View& view, const Study
   Result<Samples> samples = study_samples(times, *scene.frame.place, scene.frame.true_north);
   if (!samples) return samples.error();
   return shadow_profile(prepare_casters(scene), visible_surfaces(scene, view, options.threads),
-                        samples.value().midpoints, options);
+                        samples.value(), options);
 }
 
 }  // namespace gnomon

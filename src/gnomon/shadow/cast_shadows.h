@@ -22,6 +22,7 @@ struct ShadowOptions {
   int threads = 0;  // 0: all
   Progress progress = {};
   CountStats* stats = nullptr;
+  bool first_and_last = false;  // shadow_profile: keep the first and last sun too, 4 bytes a sample
 };
 
 ShadowMask cast_shadows(const Casters& casters, const Receivers& receivers, const Light& light,
@@ -34,10 +35,20 @@ std::vector<std::uint32_t> count_shaded(const Casters& casters, const Receivers&
                                         std::span<const Light> lights,
                                         const ShadowOptions& options = {});
 
-// Milliseconds in shadow over the samples in time; those with the sun down (up = false) contribute
-// nothing.
+// Time in shadow over the samples in time of one day; those with the sun down (up = false)
+// contribute nothing.
+//
+// A tick is a millisecond. Where the daylight of all samples is 2^32 ms (49.7 days) or more, it is
+// a second: each step's length is rounded to whole seconds, and the daylight is the sum of the
+// rounded lengths, so that shadow and sun still add up to it exactly; an hour is then wrong by at
+// most half a second for each step in it that is not of whole seconds. Precondition: less than 2^32
+// s (136 years) of daylight.
 Profile shadow_profile(const Casters& casters, const Receivers& receivers,
                        std::span<const TimeSample> samples, const ShadowOptions& options = {});
+
+// The same over all days of a study: hours are the mean per day over samples.dates.
+Profile shadow_profile(const Casters& casters, const Receivers& receivers, const Samples& samples,
+                       const ShadowOptions& options = {});
 
 // The same from "what a user says"; errors as study_samples(); the scene needs a place.
 Result<Profile> shadow_profile(const Scene& scene, const View& view, const StudyTimes& times,
