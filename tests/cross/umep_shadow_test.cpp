@@ -14,7 +14,6 @@
 #include <gnomon/io/surface_raster.h>
 #include <gnomon/mesh/weld.h>
 #include <gnomon/shadow/cast_shadows.h>
-#include <gnomon/trace/exact_count.h>
 
 namespace gnomon {
 namespace {
