@@ -199,7 +199,6 @@ TEST(SurfaceRaster, BlocksStandOnTheLowestGroundAround) {
   EXPECT_EQ(lowest, 1.5);
   // Between the two blocks from 12.5 down to 3.5 + 4; the east end from there down to 2.5.
   EXPECT_EQ(looking_east(m), 5.0 + 5.0);
-  // Open from below only: 2 x 3 edges.
   EXPECT_EQ(warned(m, "no ground"), 0u);
 }
 
@@ -239,6 +238,28 @@ TEST(SurfaceRaster, SlopedBlocksKeepTheHeightsOfTheirMiddlesAndNeedNoInnerWalls)
     if (v.y == -0.5) middles.push_back(v.z);
   }
   EXPECT_EQ(middles, (std::vector<double>{4, 8}));
+}
+
+TEST(SurfaceRaster, BlocksBesideUnknownGroundKeepTheirWallsUpright) {
+  // A block without ground of its own takes lower ground than its neighbour knows of.
+  const GroundAt holes = [](double x, double y) {
+    const int k = static_cast<int>(x) * 7 + static_cast<int>(y) * 13;
+    return k % 3 == 0 ? std::optional<double>() : std::optional<double>((k * 31) % 100);
+  };
+  std::vector<double> z;
+  for (int k = 0; k < 400; ++k) z.push_back((k * 5) % 7 < 3 ? 0 : (k * 11) % 5 + 0.25);
+  for (const RasterMesh mesh : {RasterMesh::cells, RasterMesh::triangles}) {
+    const Model m = meshed(grid_of(20, 20, z), mesh, true, holes).value();
+    for (const auto& t : triangles_of(m)) {
+      const auto [west, east] = std::minmax({t[0].x, t[1].x, t[2].x});
+      const auto [south, north] = std::minmax({t[0].y, t[1].y, t[2].y});
+      ASSERT_LE(east - west, 1);
+      ASSERT_LE(north - south, 1);
+    }
+    EXPECT_EQ(covered(m), static_cast<double>(
+                              std::count_if(z.begin(), z.end(), [](double h) { return h > 0; })));
+    EXPECT_GT(warned(m, "no ground"), 0u);
+  }
 }
 
 TEST(SurfaceRaster, WhereNoGroundIsKnownBlocksStandAtZeroAndItIsCounted) {

@@ -38,8 +38,8 @@ struct RasterWindow {
 };
 
 // True for the files that read_raster_grid takes: by content GeoTIFF (also COG and BigTIFF), Arc
-// ASCII grid, Erdas Imagine, DTED, Surfer grid; by extension, where the content could be anything,
-// SRTM .hgt, USGS .dem, ESRI .bil and .flt. True for .vrt too, so that a user is told why it is
+// ASCII grid, Erdas Imagine, DTED, Surfer grid; or by the extension of any of these, of SRTM
+// (.hgt), USGS (.dem) and ESRI (.bil, .flt). True for .vrt too, so that a user is told why it is
 // refused. `first_bytes`: the file's beginning, 32 bytes or more if it has them.
 bool is_raster_file(const std::filesystem::path& path, std::string_view first_bytes);
 

@@ -15,7 +15,8 @@ namespace gnomon {
 struct RasterCells {
   int columns = 0, rows = 0;
   std::vector<double> top;   // NaN: there is no cell
-  std::vector<double> base;  // below top: how far a wall goes down where there is no neighbour.
+  std::vector<double> base;  // how far a wall goes down where there is no neighbour; not
+                             // above the tops of the 3 x 3 cells around.
                              // Empty: there are no walls at the border
 };
 

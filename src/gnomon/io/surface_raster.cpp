@@ -18,7 +18,7 @@ namespace {
 
 // Bytes a triangle of a raster needs from here to the finished, welded scene, and bytes a cell
 // needs while it is read: measured, docs/surface-models.md.
-constexpr double kBytesPerTriangle = 220, kBytesPerCell = 60;
+constexpr double kBytesPerTriangle = 160, kBytesPerCell = 60;
 
 // Points along each side of a rectangle that is brought to another CRS to find what it covers: its
 // sides become curves there.
@@ -164,29 +164,42 @@ void stand_on_ground(RasterCells& cells, const std::vector<Vec2>& centres, const
     }
     return z;
   };
-  cells.base.assign(cells.top.size(), kNone);
+  const auto lowest_around = [&](int i, int j, const auto& height) {
+    double lowest = std::numeric_limits<double>::infinity();
+    for (int y = std::max(0, j - 1); y <= std::min(h - 1, j + 1); ++y) {
+      for (int x = std::max(0, i - 1); x <= std::min(w - 1, i + 1); ++x) {
+        lowest = std::fmin(lowest, height(x, y));  // NaN does not count
+      }
+    }
+    return lowest;
+  };
+  const auto each_block = [&](const auto& visit) {
+    for (int j = 0; j < h; ++j) {
+      for (int i = 0; i < w; ++i) {
+        if (!std::isnan(cells.top[index(i, j)])) visit(i, j);
+      }
+    }
+  };
+  // What each block stands on, for all of them before any base: a base must lie below the tops of
+  // the blocks around it too, also where their ground is not known.
+  std::vector<double> below(cells.top.size(), kNone);
   std::size_t missing = 0;
   std::string first;
-  for (int j = 0; j < h; ++j) {
-    for (int i = 0; i < w; ++i) {
-      double& top = cells.top[index(i, j)];
-      if (std::isnan(top)) continue;
-      double lowest = std::numeric_limits<double>::infinity();
-      for (int y = std::max(0, j - 1); y <= std::min(h - 1, j + 1); ++y) {
-        for (int x = std::max(0, i - 1); x <= std::min(w - 1, i + 1); ++x) {
-          lowest = std::fmin(lowest, ground_of(x, y));  // NaN does not count
-        }
-      }
-      if (std::isinf(lowest)) lowest = 0;
-      double below = ground_of(i, j);
-      if (std::isnan(below)) {
-        if (missing++ == 0) first = fmt::format("{}: column {}, row {}", name, i, j);
-        below = lowest;
-      }
-      top += below;
-      cells.base[index(i, j)] = lowest;
+  each_block([&](int i, int j) {
+    double z = ground_of(i, j);
+    if (std::isnan(z)) {
+      if (missing++ == 0) first = fmt::format("{}: column {}, row {}", name, i, j);
+      z = lowest_around(i, j, ground_of);
+      if (std::isinf(z)) z = 0;
     }
-  }
+    below[index(i, j)] = z;
+  });
+  cells.base.assign(cells.top.size(), kNone);
+  each_block([&](int i, int j) {
+    const double blocks = lowest_around(i, j, [&](int x, int y) { return below[index(x, y)]; });
+    cells.base[index(i, j)] = std::fmin(blocks, lowest_around(i, j, ground_of));
+  });
+  each_block([&](int i, int j) { cells.top[index(i, j)] += below[index(i, j)]; });
   warn(warnings,
        "Cells of heights above ground have no ground below them; the lowest ground beside them "
        "was taken, or 0 where there is none.",
