@@ -101,6 +101,16 @@ TEST(Obj, AnyLineEndAndContinuedLinesAreRead) {
   }
 }
 
+// tinyobjloader multiplies by powers of ten and misses the last digit of the second coordinate.
+TEST(Obj, CoordinatesAreTheNearestDoubles) {
+  const Model m =
+      read("v 340841.32 340837.151 1336.6799999999998\nv 1e-5 0.1 -7.5e3\nv 0 9 +2\nf 1 2 3\n");
+  ASSERT_EQ(m.vertices.size(), 3u);
+  EXPECT_EQ(m.vertices[0], Vec3(340841.32, 340837.151, 1336.6799999999998));
+  EXPECT_EQ(m.vertices[1], Vec3(1e-5, 0.1, -7500));
+  EXPECT_EQ(m.vertices[2], Vec3(0, 9, 2));
+}
+
 TEST(Obj, ColoursAndWeightsAfterAVertexAreIgnored) {
   const Model m = read("v 0 0 0 nan nan nan\nv +1 0. .5e1 0.5\nv -0 1 0 1 1 1\nf 1 2 3\n");
   EXPECT_EQ(corners_of(m, m.polygons[0])[1], Vec3(1, 0, 5));

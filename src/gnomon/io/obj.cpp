@@ -27,6 +27,7 @@ class TextBuffer : public std::streambuf {
 struct Building {
   char up = 'y';
   ModelBuilder builder;
+  std::vector<double> coordinates;            // of ObjLines
   std::vector<Vec3> vertices;                 // z up, in the file's unit
   std::vector<std::vector<long long>> faces;  // indices into vertices, which may still be to come
   std::vector<std::uint32_t> surfaces;        // per face
@@ -42,8 +43,11 @@ std::string trimmed(const char* name) {
 
 Building& building(void* user) { return *static_cast<Building*>(user); }
 
-void on_vertex(void* user, double x, double y, double z, double) {
+void on_vertex(void* user, double, double, double, double) {
   Building& b = building(user);
+  const std::size_t at = 3 * b.vertices.size();
+  if (at + 3 > b.coordinates.size()) return;  // read_obj sees that the numbers of vertices differ
+  const double x = b.coordinates[at], y = b.coordinates[at + 1], z = b.coordinates[at + 2];
   b.vertices.push_back(b.up == 'y' ? Vec3(x, -z, y) : Vec3(x, y, z));
 }
 
@@ -78,6 +82,7 @@ Result<Model> read_obj(std::string_view text, const std::string& path, char up,
 
   Building b;
   b.up = up;
+  b.coordinates = std::move(lines.coordinates);
   tinyobj::callback_t callbacks;
   callbacks.vertex_cb = on_vertex;
   callbacks.index_cb = on_face;

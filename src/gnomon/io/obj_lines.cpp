@@ -61,10 +61,12 @@ struct Checker {
     for (const char axis : {'x', 'y', 'z'}) {
       const std::string_view word = next_word(rest);
       if (word.empty()) return fail(line, fmt::format("the vertex has no {} coordinate.", axis));
-      if (!finite_number(word)) {
+      const auto number = finite_number(word);
+      if (!number) {
         return fail(line, fmt::format("the {} coordinate {} is not a finite number.", axis,
                                       in_quotes(word)));
       }
+      out.coordinates.push_back(*number);
     }
     ++out.vertices;
     return true;

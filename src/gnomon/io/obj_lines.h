@@ -18,6 +18,8 @@ struct ObjLines {
                      // change of content
   std::vector<std::uint32_t> face_line;  // per f: its line in the file, from 1
   std::size_t vertices = 0;
+  std::vector<double> coordinates;  // x, y, z of each v, the nearest doubles: tinyobjloader's own
+                                    // conversion is often off by a last digit
   // Left out: how many, and the line of the first.
   std::size_t points_and_lines = 0, first_point_or_line = 0;
   std::size_t free_form = 0, first_free_form = 0;
