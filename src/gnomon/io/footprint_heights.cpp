@@ -41,8 +41,10 @@ const Names kBase = {"base_elevation", "ground_elevation",
                      "z_min_sol",      "abshmin"};
 const Names kMinHeight = {"min_height", "building:min_height", "render_min_height"};
 const Names kMinLevel = {"building:min_level", "min_level"};
-const Names kRules = {"building",    "building:part", "location",  "layer",
-                      "roof:levels", "roof:height",   "roof:shape"};
+const Names kRoofHeight = {"roof:height", "roof_heigh"};
+const Names kRoofLevels = {"roof:levels", "roof_level"};
+const Names kRules = {"building", "building:part", "building_p", "location",
+                      "layer",    "roof:shape",    "roof_shape"};
 
 Names chosen(const std::string& name, const Names& usual) {
   return name.empty() ? usual : Names{lower_case(name)};
@@ -77,7 +79,8 @@ FootprintAttributes::FootprintAttributes(const FootprintOptions& options)
 
 std::vector<std::string> FootprintAttributes::all() const {
   Names out;
-  for (const Names* names : {&height, &floors, &base, &kMinHeight, &kMinLevel, &kRules}) {
+  for (const Names* names :
+       {&height, &floors, &base, &kMinHeight, &kMinLevel, &kRoofHeight, &kRoofLevels, &kRules}) {
     out.insert(out.end(), names->begin(), names->end());
   }
   return out;
@@ -119,8 +122,8 @@ HeightAnswer heights_of(const FootprintFeature& feature, const FootprintAttribut
     source = first_of(feature, names.floors);
     // The height includes the roof; the number of storeys does not.
     std::optional<double> roof;
-    if (!metres({"roof:height"}, roof)) return answer;
-    if (!roof && !storeys({"roof:levels"}, roof)) return answer;
+    if (!metres(kRoofHeight, roof)) return answer;
+    if (!roof && !storeys(kRoofLevels, roof)) return answer;
     *to += roof.value_or(0);
   }
   std::optional<double> from;

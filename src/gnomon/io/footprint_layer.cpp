@@ -26,7 +26,9 @@ constexpr double kCovered = 0.9;
 enum class Kind { kPlain, kOutline, kPart, kSkipped };
 
 Kind kind_of(const FootprintFeature& f) {
-  const std::string_view part = value_of(f, "building:part"), building = value_of(f, "building");
+  std::string_view part = value_of(f, "building:part");
+  if (part.empty()) part = value_of(f, "building_p");  // in a Shapefile
+  const std::string_view building = value_of(f, "building");
   if (!part.empty() && part != "no") return Kind::kPart;
   if (building == "no") return Kind::kSkipped;
   return building.empty() ? Kind::kPlain : Kind::kOutline;
@@ -95,10 +97,12 @@ class Reader {
     warn(builder_.model.warnings, what, why.empty() ? name(f) : name(f) + ": " + why);
   }
   std::string attributes() const {
-    return file_.attributes.empty() ? "no attributes" : listed(file_.attributes);
+    return file_.attributes.empty() ? "none" : listed(file_.attributes);
   }
   std::string looked_for() const {
-    return fmt::format("height: {}; storeys: {}", listed(names_.height), listed(names_.floors));
+    constexpr std::size_t kShown = 3;  // the rest stands in docs/footprints.md
+    return fmt::format("height: {}; storeys: {}", listed(names_.height, kShown),
+                       listed(names_.floors, kShown));
   }
 
   // Attributes that the user names must be there.
@@ -231,7 +235,7 @@ class Reader {
     }
     if (without_height_ > 0) {
       return {fmt::format(
-          "{}: none of its {} footprints has a height (looked for {}); it has the attributes {}; "
+          "{}: none of its {} footprints has a height (looked for {}); its attributes: {}; "
           "name the one with the height or the number of storeys.",
           layer(), without_height_, looked_for(), attributes())};
     }
@@ -293,7 +297,9 @@ class Reader {
 
   void add(Building& b) {
     if (b.polygons.empty()) return;
-    if (const auto shape = value_of(*b.feature, "roof:shape"); !shape.empty() && shape != "flat") {
+    auto shape = value_of(*b.feature, "roof:shape");
+    if (shape.empty()) shape = value_of(*b.feature, "roof_shape");
+    if (!shape.empty() && shape != "flat") {
       warning("Shapes of roofs (roof:shape) were not built; solids reach up to the ridge.",
               *b.feature);
     }

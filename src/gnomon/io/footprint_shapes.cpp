@@ -57,6 +57,7 @@ Geom united(const Geos& geos, const std::vector<const std::vector<Rings>*>& foot
   for (const auto* polygons : footprints) {
     for (const Rings& rings : *polygons) parts.push_back(with_holes(geos, rings));
   }
+  if (parts.size() == 1) return std::move(parts[0]);
   const Geom all = collection(geos, GEOS_GEOMETRYCOLLECTION, std::move(parts));
   return own(geos, GEOSUnaryUnion_r(geos.handle, all.get()));
 }
