@@ -27,9 +27,9 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)  # libraries: what dpkg-shlibdeps
 # Read at run time: CRS database, time zones, letters of maps.
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "proj-data, tzdata, fonts-dejavu-core")
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "exact shadows from 3D models
- Computes how long every spot is in shadow, from CityJSON, OBJ and other models
- to a GeoTIFF and a map; every sample equals exact arithmetic. Needs no
- graphics card, display or network.")
+Computes how long every spot is in shadow, from CityJSON, OBJ and other models
+to a GeoTIFF and a map; every sample equals exact arithmetic. Needs no
+graphics card, display or network.")
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libgnomon-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
@@ -49,7 +49,7 @@ endif()
 list(JOIN depends ", " CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS)
 list(JOIN recommends ", " CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS)
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "exact shadows from 3D models: C++ library
- Headers, static libraries and the CMake package gnomon with its components
- core, io (readers and writers) and trace (oracles). The component core needs
- none of the recommended packages; io and trace need them.")
+Headers, static libraries and the CMake package gnomon with its components
+core, io (readers and writers) and trace (oracles). The component core needs
+none of the recommended packages; io and trace need them.")
 include(CPack)
