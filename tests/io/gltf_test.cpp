@@ -153,7 +153,7 @@ TEST_F(Gltf, DamageIsNamed) {
   expect([](Triangle& t) { t.json["nodes"][0]["children"] = {0}; }, {"node 0", "within itself"});
   expect([](Triangle& t) { t.json["nodes"][0]["mesh"] = 1; }, {"node 0", "no mesh 1"});
   expect([](Triangle& t) { t.json["nodes"][0]["scale"] = {1, 2}; }, {"node 0", "finite numbers"});
-  expect([](Triangle& t) { t.json["scene"] = "hello"; }, {"no scene \"hello\""});
+  expect([](Triangle& t) { t.json["scene"] = "hello"; }, {"\"scene\"", "is a text"});
   expect([](Triangle& t) { t.json["asset"]["version"] = "1.0"; }, {"version \"1.0\"", "convert"});
   expect([](Triangle& t) { t.json["extensionsRequired"] = {"KHR_draco_mesh_compression"}; },
          {"KHR_draco_mesh_compression", "export it without"});

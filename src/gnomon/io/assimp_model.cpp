@@ -108,6 +108,7 @@ void set_properties(Assimp::Importer& importer) {
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_ANIMATIONS, true);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_TEXTURES, false);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_MD3_HANDLE_MULTIPART, false);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_MD5_NO_ANIM_AUTOLOAD, true);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_SMD_LOAD_ANIMATION_LIST, false);
@@ -190,6 +191,11 @@ Result<Model> read_with_assimp(const std::string& path, std::string_view bytes,
   if (!by || !std::string_view(by->mName).starts_with(format.importer)) {
     return cannot_read(path, format,
                        fmt::format("it looks like a file for the {}", by ? by->mName : "?"));
+  }
+
+  // The importer of X3D takes any text for an empty scene.
+  if (std::string_view(format.name) == "X3D" && bytes.find("<X3D") == std::string_view::npos) {
+    return cannot_read(path, format, "there is no <X3D> in it");
   }
 
   SceneAxes axes;
