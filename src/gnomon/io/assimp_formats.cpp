@@ -9,9 +9,10 @@ using enum MeshReader;
 
 // Not taken although Assimp has readers for them: .dxf (3D solids are skipped without a word),
 // .blend (modifiers are, and files newer than 2.8 fail), .raw, .xml, .prj, .3d, .step (these
-// extensions mostly mean something else), motion and terrain formats, and all that keeps a model
+// extensions mostly mean something else), .ase (any text is read, and a file that is cut off as if
+// it were whole), motion and terrain formats, and all that keeps a model
 // in several files.
-constexpr std::array<MeshFormat, 22> kFormats = {{
+constexpr std::array<MeshFormat, 21> kFormats = {{
     {".gltf", "glTF", "", kGltf, UpAxis::kStated, true, 1.0},
     {".glb", "GLB", "", kGltf, UpAxis::kStated, true, 1.0},
     {".stl", "STL", "", kStl, UpAxis::kZ, false, 1.0},
@@ -22,7 +23,6 @@ constexpr std::array<MeshFormat, 22> kFormats = {{
     {".fbx", "FBX", "Autodesk FBX", kFbx, UpAxis::kStated, true, 0.01},
     {".ifc", "IFC", "Industry Foundation Classes", kIfc, UpAxis::kStated, true, 1.0},
     {".3ds", "3DS", "Discreet 3DS", kAssimp, UpAxis::kZTurned, false, 1.0},
-    {".ase", "ASE", "ASE", kAssimp, UpAxis::kZTurned, false, 1.0},
     {".md2", "MD2", "Quake II", kAssimp, UpAxis::kZTurned, false, 1.0},
     {".md3", "MD3", "Quake III", kAssimp, UpAxis::kZTurned, false, 1.0},
     {".md5mesh", "MD5", "Doom 3", kAssimp, UpAxis::kZTurned, false, 1.0},

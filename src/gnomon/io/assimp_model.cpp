@@ -7,7 +7,9 @@
 #include <gnomon/io/assimp_formats.h>
 #include <gnomon/io/assimp_model.h>
 #include <gnomon/io/assimp_scene.h>
+#include <gnomon/io/digits.h>
 #include <gnomon/io/gltf.h>
+#include <gnomon/io/mesh_text.h>
 #include <gnomon/io/off.h>
 #include <gnomon/io/ply.h>
 #include <gnomon/io/read_text.h>
@@ -15,6 +17,7 @@
 #include <assimp/Importer.hpp>
 
 #include <cmath>
+#include <cstring>
 #include <exception>
 #include <set>
 #include <string_view>
@@ -105,14 +108,64 @@ void set_properties(Assimp::Importer& importer) {
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_ANIMATIONS, true);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_TEXTURES, false);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_MD3_HANDLE_MULTIPART, false);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_MD5_NO_ANIM_AUTOLOAD, true);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_SMD_LOAD_ANIMATION_LIST, false);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_IFC_SKIP_SPACE_REPRESENTATIONS, true);
 }
 
-Result<Model> read_with_assimp(const std::string& path, const MeshFormat& format, char up,
-                               double metres_per_unit) {
+// 3DS files without key frames have no nodes; Assimp leaves these alone as they are in the file.
+UpAxis up_of(const MeshFormat& format, const aiScene& scene) {
+  const bool as_it_is =
+      scene.mRootNode && std::string_view(scene.mRootNode->mName.C_Str()) == "<3DSDummyRoot>";
+  return as_it_is ? UpAxis::kZ : format.up;
+}
+
+// Frames of the formats whose other frames Assimp passes over without a word.
+std::uint32_t frames_of(const MeshFormat& format, std::string_view bytes) {
+  const std::string_view name = format.name;
+  const std::size_t at = name == "MD2" ? 40 : name == "MD3" ? 76 : bytes.size();
+  std::uint32_t frames = 1;
+  if (at + sizeof frames <= bytes.size()) std::memcpy(&frames, bytes.data() + at, sizeof frames);
+  return frames;
+}
+
+// Metres per unit of the numbers in a Collada or IFC text; Assimp does not tell, so that it is only
+// looked for to put a size to a warning: <unit meter="0.01">,
+// IFCSIUNIT(*,.LENGTHUNIT.,.MILLI.,...).
+double text_unit(const MeshFormat& format, std::string_view text) {
+  if (format.reader == MeshReader::kDae) {
+    constexpr std::string_view kMeter = "meter=\"";
+    const std::size_t unit = text.find("<unit"), end = text.find('>', unit);
+    if (unit == std::string_view::npos || end == std::string_view::npos) return 1;
+    const std::size_t at = text.substr(0, end).find(kMeter, unit);
+    if (at == std::string_view::npos) return 1;
+    const std::string_view rest = text.substr(at + kMeter.size());
+    const double metres = real_number(rest.substr(0, rest.find('"'))).value_or(1);
+    return std::isfinite(metres) && metres > 0 ? metres : 1;
+  }
+  const std::size_t unit = text.find(".LENGTHUNIT.,");
+  if (unit == std::string_view::npos) return 1;
+  const std::string_view prefix = text.substr(unit + 13);
+  return prefix.starts_with(".MILLI.") ? 0.001 : prefix.starts_with(".CENTI.") ? 0.01 : 1.0;
+}
+
+// metres_per_unit: of the text's numbers.
+void warn_of_lost_digits(Model& model, const MeshFormat& format, std::string_view text,
+                         double metres_per_unit) {
+  const DigitLoss loss = format.reader == MeshReader::kDae   ? lost_digits_of_collada(text)
+                         : format.reader == MeshReader::kIfc ? lost_digits_of_ifc(text)
+                                                             : DigitLoss{};
+  warn(model.warnings,
+       fmt::format("The file's coordinates carry more digits than the single precision of their "
+                   "reader keeps; the largest loss is {:.2g} m.",
+                   loss.largest * metres_per_unit),
+       model.report.path, loss.numbers);
+}
+
+Result<Model> read_with_assimp(const std::string& path, std::string_view bytes,
+                               const MeshFormat& format, char up, double metres_per_unit) {
   Assimp::Importer importer;
   set_properties(importer);
   importer.SetIOHandler(new OneFile(path));  // the importer's own from here on
@@ -140,13 +193,18 @@ Result<Model> read_with_assimp(const std::string& path, const MeshFormat& format
                        fmt::format("it looks like a file for the {}", by ? by->mName : "?"));
   }
 
+  // The importer of X3D takes any text for an empty scene.
+  if (std::string_view(format.name) == "X3D" && bytes.find("<X3D") == std::string_view::npos) {
+    return cannot_read(path, format, "there is no <X3D> in it");
+  }
+
   SceneAxes axes;
   double unit = format.unit;
   if (format.reader == MeshReader::kFbx) apply_fbx_settings(*scene, axes, unit);
-  if (format.up == UpAxis::kZTurned && up == 'y') {
+  const UpAxis stands = up_of(format, *scene);
+  if (stands == UpAxis::kZTurned && up == 'y') {
     axes = {{1, 0, 0}, {0, -1, 0}, {0, 0, -1}};  // the file's x, y, z are Assimp's x, -z, y
-  } else if (up == 'z' ? format.up == UpAxis::kY || format.up == UpAxis::kZ
-                       : up == 0 && format.up == UpAxis::kZ) {
+  } else if ((stands == UpAxis::kZ && up != 'y') || (stands == UpAxis::kY && up == 'z')) {
     axes = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   }
   if (!format.unit_stated && metres_per_unit != 0) unit = metres_per_unit;
@@ -155,6 +213,10 @@ Result<Model> read_with_assimp(const std::string& path, const MeshFormat& format
   if (auto error = add_assimp_scene(builder, *scene, axes, format.reader == MeshReader::kIfc)) {
     return *error;
   }
+  if (const std::uint32_t frames = frames_of(format, bytes); frames > 1) {
+    warn(model.warnings, "Frames after the first were left out.", path, frames - 1);
+  }
+  warn_of_lost_digits(model, format, bytes, text_unit(format, bytes));
   std::set<std::string_view> objects;
   for (const Surface& s : model.surfaces) objects.insert(s.object);
   model.report.objects = objects.size();
@@ -190,7 +252,7 @@ Result<Model> read_assimp(const std::filesystem::path& path, char up, double met
     case MeshReader::kOff:
       return read_off(text.value(), name, file_up, unit);
     default:
-      return read_with_assimp(name, *format, up, metres_per_unit);
+      return read_with_assimp(name, text.value(), *format, up, metres_per_unit);
   }
 }
 

@@ -26,7 +26,7 @@ bool is_assimp_file(const std::filesystem::path& path);
 //   IFC                  z                                             the file's units
 //   X3D                  y                                             metres
 //   STL, PLY, OFF, SMD   z                                             1 m
-//   3DS, ASE, MD2, 3, 5  z                                             1 m
+//   3DS, MD2, MD3, MD5   z                                             1 m
 //   3MF, AMF             z                                             1 mm
 //   DirectX, LightWave, Blitz3D, MilkShape 3D   y                      1 m
 //

@@ -152,7 +152,10 @@ class GltfReader {
     }
     const Json* chosen = member(&f_.json, "scene");
     const auto scene = chosen ? cityjson::index_below(chosen, scenes->size()) : std::size_t{0};
-    if (!scene) return damaged(fmt::format("there is no scene {}.", cityjson::kind_of(chosen)));
+    if (!scene)
+      return damaged(fmt::format("\"scene\" must be the number of one of {}, but is {}.",
+                                 counted(size_of(scenes), "scene", "scenes"),
+                                 cityjson::kind_of(chosen)));
     const Json* list = member(element(scenes, *scene), "nodes");
     for (std::size_t k = 0; k < size_of(list); ++k) {
       const auto node = cityjson::index_below(element(list, k), size_of(nodes_));
