@@ -1,12 +1,7 @@
 #include <gnomon/io/write_geotiff.h>
 
-#include <cpl_conv.h>
-#include <cpl_error.h>
-#include <cpl_string.h>
 #include <fmt/format.h>
-#include <gdal.h>
 #include <gdal_frmts.h>
-#include <ogr_spatialref.h>
 
 #include <algorithm>
 #include <cassert>
@@ -20,50 +15,10 @@
 #include <vector>
 
 #include <gnomon/core/parallel.h>
+#include <gnomon/io/gdal_support.h>
 
 namespace gnomon {
 namespace {
-
-// GDAL reports through a handler per thread; while one of these lives, its errors come here instead
-// of stderr.
-class GdalErrors {
- public:
-  GdalErrors() { CPLPushErrorHandlerEx(&GdalErrors::collect, this); }
-  ~GdalErrors() { CPLPopErrorHandler(); }
-  GdalErrors(const GdalErrors&) = delete;
-  GdalErrors& operator=(const GdalErrors&) = delete;
-
-  // The first failure is the cause, later ones are its consequences.
-  const std::optional<std::string>& first() const { return first_; }
-
- private:
-  static void CPL_STDCALL collect(CPLErr severity, CPLErrorNum, const char* message) {
-    if (severity < CE_Failure) return;
-    auto* self = static_cast<GdalErrors*>(CPLGetErrorHandlerUserData());
-    if (!self->first_) self->first_ = message;
-  }
-  std::optional<std::string> first_;
-};
-
-struct CloseDataset {
-  void operator()(void* dataset) const { GDALClose(dataset); }
-};
-using Dataset = std::unique_ptr<void, CloseDataset>;
-
-class OptionList {
- public:
-  ~OptionList() { CSLDestroy(list_); }
-  OptionList() = default;
-  OptionList(const OptionList&) = delete;
-  OptionList& operator=(const OptionList&) = delete;
-  void set(const char* key, const std::string& value) {
-    list_ = CSLSetNameValue(list_, key, value.c_str());
-  }
-  char** get() const { return list_; }
-
- private:
-  char** list_ = nullptr;
-};
 
 struct Band {
   std::string description;
@@ -120,15 +75,6 @@ Band make_band(const Profile& p, int threads, std::string description, Has has, 
   return band;
 }
 
-// The horizontal part of a CRS, if it is known; hours have no height.
-std::optional<OGRSpatialReference> horizontal_crs(const std::string& text) {
-  OGRSpatialReference crs;
-  if (crs.SetFromUserInput(text.c_str()) != OGRERR_NONE) return {};
-  if (crs.IsCompound()) crs.StripVertical();
-  crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-  return crs;
-}
-
 void write_band(GDALDatasetH dataset, int index, Band& band, const Profile& p) {
   const GDALRasterBandH out = GDALGetRasterBand(dataset, index);
   GDALSetDescription(out, band.description.c_str());
@@ -155,12 +101,6 @@ void write_band(GDALDatasetH dataset, int index, Band& band, const Profile& p) {
   }
 }
 
-Error gdal_error(const std::filesystem::path& path, const std::optional<std::string>& reason) {
-  return {
-      fmt::format("Cannot write {}: {}; check the space on the disk and the folder's permissions.",
-                  path.string(), reason.value_or("GDAL gave no reason"))};
-}
-
 }  // namespace
 
 bool is_plan(const View& v) {
@@ -182,14 +122,10 @@ Result<FileWritten> write_profile_geotiff(const std::filesystem::path& path, con
   GdalErrors errors;
   std::optional<OGRSpatialReference> crs;
   const bool georeferenced = is_plan(view);
-  if (georeferenced && !frame.crs.empty()) {
-    crs = horizontal_crs(frame.crs);
-    if (!crs) {
-      return Error{
-          fmt::format("Cannot georeference {}: the coordinate reference system '{}' is not known "
-                      "({}); give one that PROJ knows with --crs, such as EPSG:31256.",
-                      path.string(), frame.crs, errors.first().value_or("PROJ gave no reason"))};
-    }
+  if (georeferenced) {
+    auto found = horizontal_crs(frame, path, errors);
+    if (!found) return found.error();
+    crs = std::move(found).value();
   }
 
   Result<AtomicFile> file = AtomicFile::create(path);
@@ -212,8 +148,7 @@ Result<FileWritten> write_profile_geotiff(const std::filesystem::path& path, con
   if (!dataset) return gdal_error(path, errors.first());
 
   if (georeferenced) {
-    // Scene coordinates are metres; the file's are in the CRS's own unit.
-    const double s = crs && crs->IsProjected() ? 1.0 / crs->GetLinearUnits() : 1.0;
+    const double s = units_per_metre(crs);
     double transform[6] = {(frame.origin.x + view.origin.x) * s, view.right.x * s, view.down.x * s,
                            (frame.origin.y + view.origin.y) * s, view.right.y * s, view.down.y * s};
     GDALSetGeoTransform(dataset.get(), transform);
