@@ -7,16 +7,19 @@
 
 #include <fmt/format.h>
 #include <gnomon/io/atomic_file.h>
+#include <gnomon/io/isolines.h>
 #include <gnomon/io/plan_picture.h>
 #include <gnomon/io/view_picture.h>
 #include <gnomon/io/write_geotiff.h>
+#include <gnomon/io/write_summary_csv.h>
+#include <gnomon/profile/study_dates.h>
 #include <gnomon/shadow/cast_shadows.h>
-#include <gnomon/sun/time_zone.h>
 
 #include "commands.h"
 #include "model_options.h"
 #include "progress.h"
 #include "staging.h"
+#include "study_text.h"
 #include "summary.h"
 #include "time_options.h"
 #include "view_options.h"
@@ -37,6 +40,7 @@ struct Options {
   ViewOptions view;
   std::string output = "gnomon-out";
   std::string title, attribution;
+  std::string isolines;  // step, "30min"; empty: chosen
 };
 
 class Stopwatch {
@@ -58,39 +62,40 @@ class Stopwatch {
   Clock::time_point begin_ = Clock::now(), last_ = begin_;
 };
 
-// The other kind of map that an earlier run may have left would belong to other results.
-void remove_other_map(const Staging& staging) {
-  for (const char* map : {"plan.png", "hours.png"}) {
+// What an earlier run of another kind of view may have left would belong to other results.
+void remove_other_kind(const Staging& staging, const std::string& folder) {
+  for (const char* result : {"plan.png", "hours.png", "isolines.geojson", "isolines.gpkg",
+                             "summary.csv", "objects.csv"}) {
     const auto& names = staging.names();
+    const std::string name = folder + result;
     std::error_code ignored;
-    if (std::find(names.begin(), names.end(), map) == names.end())
-      std::filesystem::remove(staging.output() / map, ignored);
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      std::filesystem::remove(staging.output() / name, ignored);
   }
 }
 
-// "18 September 2024, 09:00 - 17:00 Europe/Vienna"
-std::string window_text(const StudyTimes& t, const Samples& s, const Place& place) {
-  static constexpr const char* kMonths[] = {"January",   "February", "March",    "April",
-                                            "May",       "June",     "July",     "August",
-                                            "September", "October",  "November", "December"};
-  const auto clock = [&](Instant utc) {
-    return iso_text(take(utc_to_clock(t.zone, place, utc))).substr(11, 5);
-  };
-  const int month = std::stoi(t.date.substr(5, 2));
-  const std::string end = t.to == "24:00" ? t.to : clock(s.end);
-  return fmt::format("{} {} {}, {} \u2013 {} {}", std::stoi(t.date.substr(8, 2)),
-                     kMonths[month - 1], t.date.substr(0, 4), clock(s.begin), end,
-                     t.zone == "solar" ? "true solar time" : t.zone);
-}
-
-std::vector<Light> picture_lights(const std::vector<TimeSample>& instants) {
-  std::vector<Light> up, out;
-  for (const TimeSample& s : instants) {
-    if (s.up) up.push_back(s.light);
+// The instants of one day thinned evenly, both ends kept; of a range, a few of each part of the
+// range, at times of day that the golden ratio spreads evenly.
+std::vector<Light> picture_lights(const Samples& samples) {
+  std::vector<std::vector<Light>> days(samples.dates.size());
+  for (const TimeSample& s : samples.instants) {
+    if (s.up) days[s.day].push_back(s.light);
   }
-  if (up.size() <= kPictureInstants) return up;
-  for (std::size_t k = 0; k < kPictureInstants; ++k) {
-    out.push_back(up[k * (up.size() - 1) / (kPictureInstants - 1)]);
+  days.erase(std::remove_if(days.begin(), days.end(), [](const auto& d) { return d.empty(); }),
+             days.end());
+  std::vector<Light> out;
+  if (days.size() == 1) {
+    const std::vector<Light>& up = days[0];
+    if (up.size() <= kPictureInstants) return up;
+    for (std::size_t k = 0; k < kPictureInstants; ++k) {
+      out.push_back(up[k * (up.size() - 1) / (kPictureInstants - 1)]);
+    }
+    return out;
+  }
+  for (std::size_t k = 0; !days.empty() && k < kPictureInstants; ++k) {
+    const std::vector<Light>& up = days[k * days.size() / kPictureInstants];
+    const double part = std::fmod(static_cast<double>(k) * 0.61803398874989485, 1.0);
+    out.push_back(up[static_cast<std::size_t>(part * static_cast<double>(up.size()))]);
   }
   return out;
 }
@@ -104,22 +109,206 @@ double middle_azimuth(const Samples& s) {
   return std::atan2(sum.x, sum.y);
 }
 
-void run(const Options& o) {
-  Timings timings;
+// What all studies of a run share.
+struct Prepared {
+  const LoadedScene& loaded;
+  const View& view;
+  const Receivers& receivers;
+  const Casters& casters;
+  const ExactStats& visibility;
+  double camera_azimuth;  // automatic cameras look from that side
+  std::string title, software;
+};
+
+// One entry of --date.
+struct Study {
+  StudyTimes times;
+  Samples samples;
+  std::string folder;  // of its results inside the output folder: "2024-03-21/", or empty
+  std::string window, steps;
+};
+
+// Between isolines and classes of hours.
+std::uint64_t isoline_step(const Options& o, const Profile& profile) {
+  if (o.isolines.empty())
+    return static_cast<std::uint64_t>(std::llround(tick_hours(daylight_hours(profile)) * 3.6e6));
+  return static_cast<std::uint64_t>(read_step(o.isolines)->count());
+}
+
+void check_isoline_step(const std::string& text) {
+  const auto step = read_step(text);
+  if (!step || *step < std::chrono::minutes(1)) {
+    throw Failure(
+        "the step '" + text +
+        "' of --isolines cannot be used: write whole numbers with units, as 1h, 30min or 1h30min, "
+        "at least 1min");
+  }
+}
+
+Profile compute(const Options& o, const Prepared& all, const Study& study, CountStats& stats) {
+  ProgressBar bar("computing shadows", o.common.quiet);
+  const ShadowOptions options{o.common.threads, [&](double share) { bar.show(share); }, &stats,
+                              true};
+  Profile profile = shadow_profile(all.casters, all.receivers, study.samples, options);
+  if (profile.daylight_ticks == 0) {
+    throw Failure(
+        fmt::format("the sun is below the horizon at every step of {}: there is nothing to compute",
+                    study.window));
+  }
+  return profile;
+}
+
+ViewSamples overlay(const Options& o, const Prepared& all, const Study& study) {
+  const Scene& scene = all.loaded.scene;
+  ProgressBar bar("drawing the view", o.common.quiet);
+  ViewOptions as_camera = o.view;
+  if (!wants_camera(o.view)) {
+    as_camera = ViewOptions{};
+    as_camera.bounds = o.view.bounds;
+  }
+  const View wide = make_camera(scene, as_camera, all.camera_azimuth, kSupersample);
+  const Receivers seen = visible_surfaces(scene, wide, o.common.threads);
+  const std::vector<Light> lights = picture_lights(study.samples);
+  const std::vector<std::uint32_t> shaded =
+      count_shaded(all.casters, seen, lights,
+                   {o.common.threads, [&](double share) { bar.show(share); }, nullptr});
+  ViewSamples picture;
+  picture.width = wide.width;
+  picture.height = wide.height;
+  picture.downsample = kSupersample;
+  picture.instants = static_cast<int>(lights.size());
+  picture.shadows.assign(shaded.begin(), shaded.end());
+  picture.valid.resize(shaded.size());
+  std::transform(
+      seen.triangle.begin(), seen.triangle.end(), picture.valid.begin(),
+      [](std::uint32_t t) { return static_cast<std::uint8_t>(t != kNoTriangle ? 1 : 0); });
+  picture.shading = view_shading(scene, seen, o.common.threads);
+  return picture;
+}
+
+// isolines and tables: what has a place on the map.
+void write_map_data(const Prepared& all, const Study& study, const Profile& profile,
+                    std::uint64_t step_ms, int threads, Staging& staging, Stopwatch& watch) {
+  const Scene& scene = all.loaded.scene;
+  const auto path = [&](const char* name) { return staging.path(study.folder + name); };
+  const std::vector<Isoline> lines = find_isolines(profile, all.view, step_ms, threads);
+  take(write_isolines_geojson(path("isolines.geojson"), lines, profile.days, scene.frame));
+  take(write_isolines_gpkg(path("isolines.gpkg"), lines, profile.days, scene.frame));
+  watch.stage("isolines");
+  const std::vector<ObjectHours> objects = hours_by_object(profile, all.receivers, scene, step_ms);
+  take(write_summary_csv(path("summary.csv"), profile, all.view, objects, step_ms));
+  take(write_objects_csv(path("objects.csv"), profile, all.view, objects));
+  watch.stage("summary.csv");
+}
+
+// Computes one study and stages its results. `timings`: of what came before. Returns the warnings
+// of the study alone.
+Warnings run_study(const Options& o, const Prepared& all, const Study& study, Timings timings,
+                   Staging& staging) {
   Stopwatch watch(timings);
-  if (o.time.times.date.empty())
+  const Scene& scene = all.loaded.scene;
+  const bool camera = wants_camera(o.view);
+  const int threads = o.common.threads;
+  const auto path = [&](const char* name) { return staging.path(study.folder + name); };
+
+  CountStats stats;
+  const Profile profile = compute(o, all, study, stats);
+  watch.stage("profile");
+  Warnings warnings = study.samples.warnings;
+  if (std::find(profile.valid.begin(), profile.valid.end(), 1) == profile.valid.end()) {
+    warn(warnings,
+         "the view meets no receiver: every sample is nodata; check --bounds, --eye and --receive",
+         "");
+  }
+
+  const std::string all_text = all.title + ", " + study.window + ", " + study.steps;
+  take(write_profile_geotiff(path("profile.tif"), profile, all.view, scene.frame,
+                             {{"TIFFTAG_SOFTWARE", all.software},
+                              {"TIFFTAG_IMAGEDESCRIPTION", all_text},
+                              {"DATE", study.times.date},
+                              {"TIME_ZONE", study.times.zone}},
+                             {.threads = threads}));
+  watch.stage("profile.tif");
+
+  PlanCaption plan_caption;
+  plan_caption.title = all.title;
+  plan_caption.lines = {study.window, study.steps};
+  plan_caption.software = all.software;
+  plan_caption.attribution = o.attribution;
+  const char* map_name = camera ? "hours.png" : "plan.png";
+  const PlanRelief relief = camera ? PlanRelief{} : plan_relief(scene, all.receivers, threads);
+  take(write_plan_picture(path(map_name), profile, all.view, scene.frame, plan_caption, relief,
+                          threads));
+  watch.stage(map_name);
+
+  const std::uint64_t step_ms = camera ? 0 : isoline_step(o, profile);
+  if (!camera) write_map_data(all, study, profile, step_ms, threads, staging, watch);
+
+  const ViewSamples picture = overlay(o, all, study);
+  ViewCaption view_caption;
+  view_caption.title = all.title;
+  view_caption.lines = {study.window,
+                        fmt::format("{} shadows laid over each other", picture.instants)};
+  view_caption.software = all.software;
+  view_caption.attribution = o.attribution;
+  take(write_view_picture(path("view.png"), picture, view_caption, threads));
+  watch.stage("view.png");
+
+  const std::filesystem::path summary_path = path("summary.json");
+  std::vector<std::string> outputs;
+  for (const std::string& name : staging.names()) {
+    if (name.starts_with(study.folder)) outputs.push_back(name.substr(study.folder.size()));
+  }
+  double total = 0;
+  for (const auto& stage : timings) total += stage.second;
+  timings.emplace_back("total", total);
+  const Summary summary{o.models,      study.times,    all.loaded,
+                        study.samples, all.view,       profile,
+                        stats,         all.visibility, timings,
+                        outputs,       threads,        static_cast<std::size_t>(picture.instants),
+                        step_ms};
+  Warnings every = scene.warnings;
+  append(every, warnings);
+  take(write_text_file(summary_path, summary_json(summary, every)));
+  if (!o.common.quiet) {
+    fmt::print("{}\n{}; {}; the sun was up for {:.2f} h {}\n", all.title, study.window, study.steps,
+               daylight_hours(profile), profile.days > 1 ? "a day" : "of it");
+  }
+  return warnings;
+}
+
+// One for each --date. Everything that can be refused is, before the model is read.
+std::vector<StudyTimes> study_times(const Options& o) {
+  if (o.time.dates.empty())
     throw Failure("no date given: add --date YYYY-MM-DD, such as --date 2024-09-18");
   if (o.time.times.zone.empty()) {
     throw Failure(
         "no time zone given: add --tz Europe/Vienna (an IANA name) or --tz solar (true solar "
         "time)");
   }
+  if (!o.isolines.empty()) check_isoline_step(o.isolines);
+  std::vector<StudyTimes> all;
+  for (const std::string& date : o.time.dates) {
+    take(study_dates(date));
+    for (const StudyTimes& t : all) {
+      if (t.date == date) throw Failure("--date " + date + " is given twice: leave one out");
+    }
+    all.push_back(o.time.times);
+    all.back().date = date;
+  }
+  return all;
+}
+
+void run(const Options& o) {
+  Timings timings;
+  Stopwatch watch(timings);
+  const std::vector<StudyTimes> times = study_times(o);
   const bool camera = wants_camera(o.view);
 
   LoadOptions load = o.models.load;
   if (!load.ground_extent) load.ground_extent = parse_bounds(o.view.bounds);
-  const LoadedScene loaded = take(load_scene(o.models.models, load));
-  const Scene& scene = loaded.scene;
+  LoadedScene loaded = take(load_scene(o.models.models, load));
+  Scene& scene = loaded.scene;
   if (!scene.frame.place) {
     throw Failure(
         "where on Earth is the model? Its file names no coordinate reference system: add --crs "
@@ -127,116 +316,44 @@ void run(const Options& o) {
         "(degrees) for a model in local metres");
   }
   const Place place = *scene.frame.place;
-  const Samples samples = take(study_samples(o.time.times, place, scene.frame.true_north));
+  std::vector<Study> studies;
+  for (const StudyTimes& t : times) {
+    Study study{t, take(study_samples(t, place, scene.frame.true_north)), "", "", ""};
+    if (times.size() > 1) study.folder = folder_name(t.date) + "/";
+    study.window = window_text(t, study.samples, place);
+    study.steps = steps_text(t, study.samples);
+    studies.push_back(std::move(study));
+  }
   watch.stage("read");
 
-  const View view =
-      camera ? make_camera(scene, o.view, middle_azimuth(samples), 1) : make_plan(scene, o.view);
+  const double azimuth = middle_azimuth(studies.front().samples);
+  const View view = camera ? make_camera(scene, o.view, azimuth, 1) : make_plan(scene, o.view);
   ExactStats visibility;
   const Receivers receivers = visible_surfaces(scene, view, o.common.threads, &visibility);
   const Casters casters = prepare_casters(scene);
+  if (casters.edges.vertices.empty())
+    warn(scene.warnings, "nothing casts a shadow: check --cast and --no-cast", "");
   watch.stage("view");
   if (!o.common.quiet && o.common.verbose > 0) {
+    std::size_t steps = 0;
+    for (const Study& s : studies) steps += s.samples.midpoints.size();
     fmt::print(stderr, "{} triangles, {} x {} samples, {} steps\n", scene.mesh.triangles.size(),
-               view.width, view.height, samples.midpoints.size());
+               view.width, view.height, steps);
   }
 
-  CountStats stats;
-  Profile profile;
-  {
-    ProgressBar bar("computing shadows", o.common.quiet);
-    profile =
-        shadow_profile(casters, receivers, samples,
-                       {o.common.threads, [&](double share) { bar.show(share); }, &stats, true});
-  }
-  watch.stage("profile");
-  if (profile.daylight_ticks == 0) {
-    throw Failure(
-        fmt::format("the sun is below the horizon at every step of {}: there is nothing to compute",
-                    window_text(o.time.times, samples, place)));
-  }
+  const Prepared all{loaded,
+                     view,
+                     receivers,
+                     casters,
+                     visibility,
+                     azimuth,
+                     o.title.empty() ? title_of(o.models) : o.title,
+                     std::string("gnomon ") + GNOMON_VERSION};
   Warnings warnings = scene.warnings;
-  if (casters.edges.vertices.empty())
-    warn(warnings, "nothing casts a shadow: check --cast and --no-cast", "");
-  append(warnings, samples.warnings);
-  if (std::find(profile.valid.begin(), profile.valid.end(), 1) == profile.valid.end()) {
-    warn(warnings,
-         "the view meets no receiver: every sample is nodata; check --bounds, --eye and --receive",
-         "");
-  }
-
-  const std::string software = std::string("gnomon ") + GNOMON_VERSION;
-  const std::string title = o.title.empty() ? title_of(o.models) : o.title,
-                    window = window_text(o.time.times, samples, place);
-  const std::string steps =
-      fmt::format("{} steps of {}", samples.midpoints.size(), o.time.times.every);
   Staging staging(o.output);
-  take(write_profile_geotiff(staging.path("profile.tif"), profile, view, scene.frame,
-                             {{"TIFFTAG_SOFTWARE", software},
-                              {"TIFFTAG_IMAGEDESCRIPTION", title + ", " + window + ", " + steps}},
-                             {.threads = o.common.threads}));
-  watch.stage("profile.tif");
-
-  PlanCaption plan_caption;
-  plan_caption.title = title;
-  plan_caption.lines = {window, steps};
-  plan_caption.software = software;
-  plan_caption.attribution = o.attribution;
-  const char* map_name = camera ? "hours.png" : "plan.png";
-  const PlanRelief relief = camera ? PlanRelief{} : plan_relief(scene, receivers, o.common.threads);
-  take(write_plan_picture(staging.path(map_name), profile, view, scene.frame, plan_caption, relief,
-                          o.common.threads));
-  watch.stage(map_name);
-
-  ViewSamples picture;
-  {
-    ProgressBar bar("drawing the view", o.common.quiet);
-    ViewOptions as_camera = o.view;
-    if (!camera) {
-      as_camera = ViewOptions{};
-      as_camera.bounds = o.view.bounds;
-    }
-    const View wide = make_camera(scene, as_camera, middle_azimuth(samples), kSupersample);
-    const Receivers seen = visible_surfaces(scene, wide, o.common.threads);
-    const std::vector<Light> lights = picture_lights(samples.instants);
-    const std::vector<std::uint32_t> shaded = count_shaded(
-        casters, seen, lights, {o.common.threads, [&](double share) { bar.show(share); }, nullptr});
-    picture.width = wide.width;
-    picture.height = wide.height;
-    picture.downsample = kSupersample;
-    picture.instants = static_cast<int>(lights.size());
-    picture.shadows.assign(shaded.begin(), shaded.end());
-    picture.valid.resize(shaded.size());
-    std::transform(
-        seen.triangle.begin(), seen.triangle.end(), picture.valid.begin(),
-        [](std::uint32_t t) { return static_cast<std::uint8_t>(t != kNoTriangle ? 1 : 0); });
-    picture.shading = view_shading(scene, seen, o.common.threads);
-  }
-  ViewCaption view_caption;
-  view_caption.title = title;
-  view_caption.lines = {window, fmt::format("{} shadows laid over each other", picture.instants)};
-  view_caption.software = software;
-  view_caption.attribution = o.attribution;
-  take(write_view_picture(staging.path("view.png"), picture, view_caption, o.common.threads));
-  watch.stage("view.png");
-
-  const std::filesystem::path summary_path = staging.path("summary.json");
-  timings.emplace_back("total", watch.total());
-  const Summary summary{o.models,
-                        o.time.times,
-                        loaded,
-                        samples,
-                        view,
-                        profile,
-                        stats,
-                        visibility,
-                        timings,
-                        staging.names(),
-                        o.common.threads,
-                        static_cast<std::size_t>(picture.instants)};
-  take(write_text_file(summary_path, summary_json(summary, warnings)));
+  for (const Study& study : studies) append(warnings, run_study(o, all, study, timings, staging));
   staging.publish();
-  remove_other_map(staging);
+  for (const Study& study : studies) remove_other_kind(staging, study.folder);
 
   if (o.common.quiet) return;
   print_warnings(warnings);
@@ -247,8 +364,6 @@ void run(const Options& o) {
   }
   fmt::print("model: {:.1f} m east-west, {:.1f} m north-south, {:.1f} m high\n",
              box.hi.x - box.lo.x, box.hi.y - box.lo.y, box.hi.z - box.lo.z);
-  fmt::print("{}\n{}; {}; the sun was up for {:.2f} h of it\n", title, window, steps,
-             daylight_hours(profile));
   fmt::print("{} x {} samples over {} triangles in {:.2f} s\n", view.width, view.height,
              scene.mesh.triangles.size(), watch.total() / 1000);
   for (const std::string& name : staging.names())
@@ -262,7 +377,7 @@ void add_profile(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("profile", "Hours in shadow on every spot: the shadow profile");
   add_model_options(*command, options->models);
-  add_time_options(*command, options->time);
+  add_time_options(*command, options->time, Dates::kSeveral);
   add_view_options(*command, options->view);
   command->add_option("-o,--output", options->output, "Folder for the results")
       ->capture_default_str()
@@ -274,6 +389,11 @@ void add_profile(CLI::App& app) {
   command
       ->add_option("--attribution", options->attribution,
                    "Whom the pictures name as the model's source")
+      ->group("Output");
+  command
+      ->add_option("--isolines", options->isolines,
+                   "Hours of shadow between isolines, and between the classes of summary.csv: 1h, "
+                   "30min, 1h30min (default: as in the map's legend)")
       ->group("Output");
   add_common(*command, options->common);
   command->callback([options] { run(*options); });

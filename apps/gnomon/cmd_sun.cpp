@@ -178,7 +178,7 @@ void add_sun(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("sun", "Positions of the sun, sunrise, transit and sunset");
   add_site_option(*command, options->site);
-  add_time_options(*command, options->time);
+  add_time_options(*command, options->time, Dates::kOne);
   command->get_option("--from")->description(
       "Begin on the local clock, HH:MM[:SS] (default: 00:00)");
   command->get_option("--to")->description("End on the local clock, HH:MM[:SS] (default: 24:00)");

@@ -168,20 +168,26 @@ std::string summary_json(const Summary& s, const Warnings& warnings) {
       "azimuth_deg: from true north, clockwise; altitude_deg: of the sun's centre with refraction "
       "(the one shadows use); direction: "
       "[x east, y north, z up in the model's CRS, towards the sun]; hours: each step's midpoint "
-      "times the step";
+      "times the step, per day of window.dates";
   json["inputs"] = inputs_json(s);
   json["scene"] = scene_json(s.loaded);
   json["view"] = view_json(s.view, s.loaded.scene.frame.origin);
-  json["window"] = {{"begin_utc", iso_text(s.samples.begin)}, {"end_utc", iso_text(s.samples.end)}};
+  json["window"] = {{"begin_utc", iso_text(s.samples.begin)},
+                    {"end_utc", iso_text(s.samples.end)},
+                    {"dates", s.samples.dates}};
   json["samples"] = Json::array();
   for (const TimeSample& t : s.samples.midpoints) json["samples"].push_back(sample_json(t));
   json["instants"] = Json::array();
-  for (const TimeSample& t : s.samples.instants) {
-    Json j = sample_json(t);
-    j.erase("weight_s");
-    json["instants"].push_back(j);
-  }
+  // Of a range, pictures show a few of many; the midpoints say where the sun was.
+  if (s.samples.dates.size() == 1)
+    for (const TimeSample& t : s.samples.instants) {
+      Json j = sample_json(t);
+      j.erase("weight_s");
+      json["instants"].push_back(j);
+    }
   json["result"] = result_json(s.profile);
+  json["result"]["isolines_every_h"] =
+      s.step_ms == 0 ? Json() : Json(static_cast<double>(s.step_ms) / 3.6e6);
   json["counts"] = {
       {"silhouette_edges", s.stats.sides},
       {"samples_decided_in_double_or_exactly", s.stats.close},

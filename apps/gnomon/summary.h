@@ -31,6 +31,7 @@ struct Summary {
   std::vector<std::string> outputs;  // file names
   int threads = 0;                   // asked for; 0: all
   std::size_t picture_instants = 0;  // shadows laid over each other in view.png
+  std::uint64_t step_ms = 0;         // between isolines and classes of hours; 0: a camera has none
 };
 
 std::string summary_json(const Summary& summary, const Warnings& warnings);

@@ -22,9 +22,22 @@ std::optional<double> read_number(std::string_view text) {
 
 }  // namespace
 
-void add_time_options(CLI::App& command, TimeOptions& options) {
+void add_time_options(CLI::App& command, TimeOptions& options, Dates dates) {
   StudyTimes& times = options.times;
-  command.add_option("--date", times.date, "Date on the local calendar, YYYY-MM-DD")->group("Time");
+  if (dates == Dates::kOne) {
+    command.add_option("--date", times.date, "Date on the local calendar, YYYY-MM-DD")
+        ->group("Time");
+  } else {
+    command
+        .add_option(
+            "--date", options.dates,
+            "YYYY-MM-DD on the local calendar; or a range whose hours are the mean per day, "
+            "YYYY-MM-DD..YYYY-MM-DD, of every 7th day with /7d; may be repeated, one "
+            "folder of results each")
+        ->type_name("DATE[..DATE[/Nd]]")
+        ->allow_extra_args(false)  // else MODEL... after it would count as dates
+        ->group("Time");
+  }
   command
       .add_option("--from", times.from, "Begin on the local clock, HH:MM[:SS] (default: sunrise)")
       ->group("Time");

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <gnomon/core/place.h>
 #include <gnomon/core/warnings.h>
@@ -13,11 +14,15 @@ namespace gnomon::app {
 
 struct TimeOptions {
   StudyTimes times;
+  std::vector<std::string> dates;  // of a command with several: one study each, as typed
 };
 
-// Adds --date, --from, --to, --every, --tz (group "Time"). What is missing or wrong is said by
-// study_samples().
-void add_time_options(CLI::App& command, TimeOptions& options);
+// Whether --date takes one date, or dates and ranges of dates, repeated.
+enum class Dates { kOne, kSeveral };
+
+// Adds --date (into times.date, or into dates), --from, --to, --every, --tz (group "Time"). What is
+// missing or wrong is said by study_samples().
+void add_time_options(CLI::App& command, TimeOptions& options, Dates dates);
 
 // Adds --site LAT,LON[,HEIGHT] (group "Place"); to be read by parse_site().
 void add_site_option(CLI::App& command, std::string& site);

@@ -1,4 +1,5 @@
 // The scene as OBJ and glTF: read back, nothing is lost.
+#include <gnomon/io/load_scene.h>
 #include <gnomon/io/obj.h>
 #include <gnomon/io/scene_parts.h>
 #include <gnomon/io/write_gltf.h>

@@ -8,34 +8,35 @@
 #include <gnomon/io/write_geotiff.h>
 
 namespace gnomon {
-namespace {
 
-// The horizontal part of a CRS, if it is known; hours and shadows have no height.
-std::optional<OGRSpatialReference> horizontal_crs(const std::string& text) {
+Result<std::optional<OGRSpatialReference>> horizontal_crs(const Frame& frame,
+                                                          const std::filesystem::path& path,
+                                                          const GdalErrors& errors) {
+  if (frame.crs.empty()) return std::optional<OGRSpatialReference>();
   OGRSpatialReference crs;
-  if (crs.SetFromUserInput(text.c_str()) != OGRERR_NONE) return {};
+  if (crs.SetFromUserInput(frame.crs.c_str()) != OGRERR_NONE) {
+    return Error{
+        fmt::format("Cannot georeference {}: the coordinate reference system '{}' is not known "
+                    "({}); give one that PROJ knows with --crs, such as EPSG:31256.",
+                    path.string(), frame.crs, errors.first().value_or("PROJ gave no reason"))};
+  }
   if (crs.IsCompound()) crs.StripVertical();
   crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-  return crs;
+  return std::optional<OGRSpatialReference>(std::move(crs));
 }
 
-}  // namespace
+double units_per_metre(const std::optional<OGRSpatialReference>& crs) {
+  return crs && crs->IsProjected() ? 1.0 / crs->GetLinearUnits() : 1.0;
+}
 
 Result<Georeference> georeference(const View& view, const Frame& frame,
                                   const std::filesystem::path& path, const GdalErrors& errors) {
   assert(is_plan(view));
+  auto crs = horizontal_crs(frame, path, errors);
+  if (!crs) return crs.error();
   Georeference out;
-  if (!frame.crs.empty()) {
-    out.crs = horizontal_crs(frame.crs);
-    if (!out.crs) {
-      return Error{
-          fmt::format("Cannot georeference {}: the coordinate reference system '{}' is not known "
-                      "({}); give one that PROJ knows with --crs, such as EPSG:31256.",
-                      path.string(), frame.crs, errors.first().value_or("PROJ gave no reason"))};
-    }
-  }
-  // Scene coordinates are metres; the file's are in the CRS's own unit.
-  const double s = out.crs && out.crs->IsProjected() ? 1.0 / out.crs->GetLinearUnits() : 1.0;
+  out.crs = std::move(crs).value();
+  const double s = units_per_metre(out.crs);
   out.transform = {(frame.origin.x + view.origin.x) * s, view.right.x * s, view.down.x * s,
                    (frame.origin.y + view.origin.y) * s, view.right.y * s, view.down.y * s};
   return out;

@@ -60,6 +60,16 @@ class OptionList {
   char** list_ = nullptr;
 };
 
+// The horizontal part of the frame's CRS (hours and shadows have no height); nothing where it has
+// none. Errors: a CRS that PROJ does not know (`path` is named as what cannot be written).
+Result<std::optional<OGRSpatialReference>> horizontal_crs(const Frame& frame,
+                                                          const std::filesystem::path& path,
+                                                          const GdalErrors& errors);
+
+// Units of a file's coordinates in a metre: scene coordinates are metres, a file's are in its CRS's
+// own unit.
+double units_per_metre(const std::optional<OGRSpatialReference>& crs);
+
 // Where the pixels of a plan lie on the map.
 struct Georeference {
   // GDAL's order: x = t[0] + column t[1] + row t[2], y = t[3] + column t[4] + row t[5], of the
@@ -68,8 +78,7 @@ struct Georeference {
   std::optional<OGRSpatialReference> crs;  // its horizontal part; empty: local metres
 };
 
-// Precondition: is_plan(view). Errors: a CRS that PROJ does not know (`path` is named as what
-// cannot be written).
+// Precondition: is_plan(view). Errors: as horizontal_crs.
 Result<Georeference> georeference(const View& view, const Frame& frame,
                                   const std::filesystem::path& path, const GdalErrors& errors);
 

@@ -1,3 +1,4 @@
+#include <gnomon/io/gdal_support.h>
 #include <gnomon/io/raster_grid.h>
 
 #include <cpl_error.h>
@@ -17,32 +18,6 @@
 
 namespace gnomon {
 namespace {
-
-// GDAL reports through a handler per thread; while one of these lives, its errors come here instead
-// of stderr.
-class GdalErrors {
- public:
-  GdalErrors() { CPLPushErrorHandlerEx(&GdalErrors::collect, this); }
-  ~GdalErrors() { CPLPopErrorHandler(); }
-  GdalErrors(const GdalErrors&) = delete;
-  GdalErrors& operator=(const GdalErrors&) = delete;
-
-  // The first failure is the cause, later ones are its consequences.
-  const std::optional<std::string>& first() const { return first_; }
-
- private:
-  static void CPL_STDCALL collect(CPLErr severity, CPLErrorNum, const char* message) {
-    if (severity < CE_Failure) return;
-    auto* self = static_cast<GdalErrors*>(CPLGetErrorHandlerUserData());
-    if (!self->first_) self->first_ = message;
-  }
-  std::optional<std::string> first_;
-};
-
-struct CloseDataset {
-  void operator()(void* dataset) const { GDALClose(dataset); }
-};
-using Dataset = std::unique_ptr<void, CloseDataset>;
 
 // The drivers that may open a file. All of them read one local file (and what lies beside it): VRT
 // and the like, which name other files and addresses, are not among them.

@@ -1,7 +1,6 @@
 #include <gnomon/io/write_geotiff.h>
 
 #include <fmt/format.h>
-#include <gdal.h>
 #include <gdal_frmts.h>
 
 #include <algorithm>

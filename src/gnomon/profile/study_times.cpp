@@ -48,31 +48,6 @@ std::optional<milliseconds> read_clock(std::string_view text) {
   return time;
 }
 
-// "1h30min", "90s": whole numbers with units, largest first; positive.
-std::optional<milliseconds> read_step(std::string_view text) {
-  struct Unit {
-    std::string_view name;
-    milliseconds length;
-  };
-  constexpr Unit units[] = {
-      {"h", hours(1)}, {"min", minutes(1)}, {"m", minutes(1)}, {"s", seconds(1)}};
-  milliseconds sum{0}, last = kLongestStep + milliseconds(1);
-  while (!text.empty()) {
-    int count = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
-    // A million of the largest unit is far beyond what is accepted, and far from an overflow.
-    if (error != std::errc() || count < 0 || count > 1000000) return {};
-    text.remove_prefix(static_cast<std::size_t>(end - text.data()));
-    const Unit* unit = std::find_if(std::begin(units), std::end(units),
-                                    [&](const Unit& u) { return take(text, u.name); });
-    if (unit == std::end(units) || unit->length >= last) return {};
-    sum += count * unit->length;
-    last = unit->length;
-  }
-  if (sum <= milliseconds(0)) return {};
-  return sum;
-}
-
 // For messages.
 std::string on_clock(ClockTime clock, const std::string& zone) {
   return iso_text(clock) + " " + zone;
@@ -297,6 +272,30 @@ void add_day(Samples& samples, const DayWindow& on, std::size_t day, const Place
 }
 
 }  // namespace
+
+std::optional<milliseconds> read_step(std::string_view text) {
+  struct Unit {
+    std::string_view name;
+    milliseconds length;
+  };
+  constexpr Unit units[] = {
+      {"h", hours(1)}, {"min", minutes(1)}, {"m", minutes(1)}, {"s", seconds(1)}};
+  milliseconds sum{0}, last = kLongestStep + milliseconds(1);
+  while (!text.empty()) {
+    int count = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
+    // A million of the largest unit is far beyond what is accepted, and far from an overflow.
+    if (error != std::errc() || count < 0 || count > 1000000) return {};
+    text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+    const Unit* unit = std::find_if(std::begin(units), std::end(units),
+                                    [&](const Unit& u) { return take(text, u.name); });
+    if (unit == std::end(units) || unit->length >= last) return {};
+    sum += count * unit->length;
+    last = unit->length;
+  }
+  if (sum <= milliseconds(0)) return {};
+  return sum;
+}
 
 Result<LocalDay> local_day(const std::string& date, const std::string& zone, const Place& place,
                            const Atmosphere& air) {

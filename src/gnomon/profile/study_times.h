@@ -4,7 +4,9 @@
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <gnomon/core/place.h>
@@ -25,6 +27,10 @@ struct StudyTimes {
   std::string zone =
       {};  // IANA name ("Europe/Vienna"), "UTC", or "solar" (true solar time). Required.
 };
+
+// A length of time such as "1h30min", "5min", "90s": whole numbers with units, largest first.
+// Nothing where it cannot be read or is not more than zero.
+std::optional<std::chrono::milliseconds> read_step(std::string_view text);
 
 // A date of the local calendar.
 struct LocalDay {
@@ -47,7 +53,7 @@ struct StudyWindow {
   std::vector<Instant> edges;  // begin, the edges between the steps, end: ascending, at least two
   std::vector<ClockTime> clocks;  // what the clock shows at the edges; not ascending where it is
                                   // put back
-  Warnings warnings;  // e.g. an ambiguous local time, a last step that is shorter
+  Warnings warnings;              // e.g. an ambiguous local time, a last step that is shorter
 };
 
 // One moment of the study.
