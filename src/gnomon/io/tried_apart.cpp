@@ -22,12 +22,14 @@ void set_limit(int resource, rlim_t most) {
   setrlimit(resource, &limit);
 }
 
+#ifndef __SANITIZE_ADDRESS__
 // Pages of address space now.
 std::uint64_t pages_in_use() {
   std::uint64_t pages = 0;
   std::ifstream("/proc/self/statm") >> pages;
   return pages;
 }
+#endif
 
 [[noreturn]] void run_child(const std::function<std::string()>& work, const TrialLimits& limits,
                             int answer_to) {
