@@ -1,10 +1,13 @@
 // What Assimp itself reads: Collada, FBX, IFC, ...; and every mesh file of the data folders.
 #include <gnomon/io/digits.h>
+#include <gnomon/io/tried_apart.h>
 #include <gnomon/scene/select.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <set>
+#include <stdexcept>
 
 #include "mesh_files.h"
 
@@ -75,6 +78,38 @@ TEST_F(Assimp, DigitsBeyondSinglePrecisionAreWarnedOf) {
   const Model kept = read(
       "t.dae", collada("Z_UP", "2684572.5 0 0 100 0 0 100 200 300 0 200 300", kIndices, kHouse));
   EXPECT_EQ(warned(kept, "more digits"), 0u);
+  // 0.0006 cm lost: 6 micrometres, not worth a word.
+  const Model little = read(
+      "t.dae", collada("Z_UP", "26845.724 0 0 100 0 0 100 200 300 0 200 300", kIndices, kHouse));
+  EXPECT_EQ(warned(little, "more digits"), 0u);
+  EXPECT_GT(lost_digits("26845.724").largest, 0.0);
+}
+
+TEST(TriedApart, CrashesHangsAndHungerAreAnswersNotEnds) {
+  const TrialLimits limits{1, std::uint64_t{1} << 30};
+  EXPECT_EQ(tried_apart([] { return std::string(); }, limits), "");
+  EXPECT_EQ(tried_apart([] { return std::string("no"); }, limits), "no");
+  EXPECT_EQ(tried_apart([]() -> std::string { throw std::runtime_error("thrown"); }, limits),
+            "thrown");
+  EXPECT_EQ(tried_apart([]() -> std::string { std::abort(); }, limits), "its reader crashes on it");
+  EXPECT_EQ(tried_apart(
+                [] {
+                  volatile bool always = true;
+                  while (always) {
+                  }
+                  return std::string();
+                },
+                limits),
+            "its reader does not come to an end with it");
+#ifndef __SANITIZE_ADDRESS__
+  EXPECT_EQ(tried_apart([] { return std::string(std::size_t{8} << 30, 'x'); }, limits),
+            "std::bad_alloc");
+#endif
+}
+
+TEST_F(Assimp, AFileThatItsReaderAbortsOnIsAnError) {
+  // An empty zip archive: the reader of 3MF asserts that there is a model in it.
+  expect_failure("t.3mf", std::string("PK\5\6") + std::string(18, '\0'), {"cannot be read as 3MF"});
 }
 
 TEST(Digits, AreLostWhereMoreThanHalfAUnitOfTheLastOneIs) {
@@ -136,9 +171,8 @@ TEST_F(Assimp, FbxAxesAndUnitAreApplied) {
 }
 
 TEST_F(Assimp, NonsenseIsRefusedInWordsOfOurs) {
-  for (const char* name :
-       {"t.dae", "t.fbx", "t.3ds", "t.md2", "t.ifc", "t.lwo", "t.x", "t.smd", "t.3mf", "t.b3d",
-        "t.ms3d", "t.md5mesh", "t.x3d", "t.zae", "t.amf", "t.md3"}) {
+  for (const char* name : {"t.dae", "t.fbx", "t.3ds", "t.md2", "t.ifc", "t.lwo", "t.x", "t.smd",
+                           "t.3mf", "t.b3d", "t.ms3d", "t.md5mesh", "t.zae", "t.amf", "t.md3"}) {
     SCOPED_TRACE(name);
     expect_failure(name, "this is not a model at all, but long enough to be one, who knows", {});
   }
@@ -158,7 +192,7 @@ TEST(AssimpFiles, AreKnownByTheirExtension) {
     EXPECT_TRUE(is_assimp_file(name)) << name;
   }
   for (const char* name : {"a.obj", "a.json", "a.jsonl", "a.png", "a.tif", "a.txt", "a.xml",
-                           "a.raw", "a.ase", "a", "glb"}) {
+                           "a.raw", "a.ase", "a.x3d", "a", "glb"}) {
     EXPECT_FALSE(is_assimp_file(name)) << name;
   }
 }
@@ -192,6 +226,7 @@ TEST(AssimpData, IfcStandsUprightInMetresWithoutItsSpacesAndOpenings) {
     if (glob_matches("IfcWall*", s)) ++walls;
   }
   EXPECT_GT(walls, 0u);
+  EXPECT_EQ(m.warnings.size(), 1u);
   EXPECT_EQ(warned(m, "IFC spaces"), 24u);  // 17 openings and 7 spaces
 }
 

@@ -9,10 +9,9 @@ using enum MeshReader;
 
 // Not taken although Assimp has readers for them: .dxf (3D solids are skipped without a word),
 // .blend (modifiers are, and files newer than 2.8 fail), .raw, .xml, .prj, .3d, .step (these
-// extensions mostly mean something else), .ase (any text is read, and a file that is cut off as if
-// it were whole), motion and terrain formats, and all that keeps a model
-// in several files.
-constexpr std::array<MeshFormat, 21> kFormats = {{
+// extensions mostly mean something else), .ase, .x3d (any text is read, and a file that is cut off
+// as if it were whole), motion and terrain formats, and all that keeps a model in several files.
+constexpr std::array<MeshFormat, 20> kFormats = {{
     {".gltf", "glTF", "", kGltf, UpAxis::kStated, true, 1.0},
     {".glb", "GLB", "", kGltf, UpAxis::kStated, true, 1.0},
     {".stl", "STL", "", kStl, UpAxis::kZ, false, 1.0},
@@ -33,7 +32,6 @@ constexpr std::array<MeshFormat, 21> kFormats = {{
     {".lwo", "LightWave", "LightWave/Modo", kAssimp, UpAxis::kY, false, 1.0},
     {".b3d", "Blitz3D", "BlitzBasic", kAssimp, UpAxis::kY, false, 1.0},
     {".ms3d", "MilkShape 3D", "Milkshape", kAssimp, UpAxis::kY, false, 1.0},
-    {".x3d", "X3D", "Extensible 3D", kAssimp, UpAxis::kStated, true, 1.0},
 }};
 
 }  // namespace

@@ -14,11 +14,11 @@
 #include <gnomon/io/ply.h>
 #include <gnomon/io/read_text.h>
 #include <gnomon/io/stl.h>
+#include <gnomon/io/tried_apart.h>
 #include <assimp/Importer.hpp>
 
 #include <cmath>
 #include <cstring>
-#include <exception>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -157,6 +157,7 @@ void warn_of_lost_digits(Model& model, const MeshFormat& format, std::string_vie
   const DigitLoss loss = format.reader == MeshReader::kDae   ? lost_digits_of_collada(text)
                          : format.reader == MeshReader::kIfc ? lost_digits_of_ifc(text)
                                                              : DigitLoss{};
+  if (loss.largest * metres_per_unit <= kNoticeableLoss) return;
   warn(model.warnings,
        fmt::format("The file's coordinates carry more digits than the single precision of their "
                    "reader keeps; the largest loss is {:.2g} m.",
@@ -164,38 +165,45 @@ void warn_of_lost_digits(Model& model, const MeshFormat& format, std::string_vie
        model.report.path, loss.numbers);
 }
 
-Result<Model> read_with_assimp(const std::string& path, std::string_view bytes,
-                               const MeshFormat& format, char up, double metres_per_unit) {
-  Assimp::Importer importer;
+// Limits of a trial: far above what whole files took (a 4 MB IFC: 0.2 s), so that only those that
+// never end or grow without bound reach them.
+constexpr std::uint64_t kTrialSeconds = 20, kBytesPerSecond = 100'000;
+constexpr std::uint64_t kTrialBytes = std::uint64_t{1} << 30, kBytesPerByte = 1000;
+
+const aiScene* import(Assimp::Importer& importer, const std::string& path) {
   set_properties(importer);
   importer.SetIOHandler(new OneFile(path));  // the importer's own from here on
-  const aiScene* scene = nullptr;
-  try {
-    scene = importer.ReadFile(path, 0);
-  } catch (const std::exception& e) {
-    return cannot_read(path, format, e.what());
-  }
+  return importer.ReadFile(path, 0);
+}
+
+std::string failure_of(const Assimp::Importer& importer) {
+  const std::string text = importer.GetErrorString();
+  return text.empty() ? "no reason is given" : text;
+}
+
+Result<Model> read_with_assimp(const std::string& path, std::string_view bytes,
+                               const MeshFormat& format, char up, double metres_per_unit) {
+  const std::string problem = tried_apart(
+      [&] {
+        Assimp::Importer trial;
+        return import(trial, path) ? std::string() : failure_of(trial);
+      },
+      {kTrialSeconds + bytes.size() / kBytesPerSecond, kTrialBytes + bytes.size() * kBytesPerByte});
+  if (!problem.empty() && !says_there_is_nothing(problem))
+    return cannot_read(path, format, problem);
+  Assimp::Importer importer;
+  const aiScene* scene = problem.empty() ? import(importer, path) : nullptr;
 
   ModelBuilder builder;
   Model& model = builder.model;
   model.report.path = path;
   model.report.format = format.name;
-  if (!scene) {
-    if (!says_there_is_nothing(importer.GetErrorString())) {
-      return cannot_read(path, format, importer.GetErrorString());
-    }
-    return std::move(model);
-  }
+  if (!scene) return std::move(model);
   const aiImporterDesc* by = importer.GetImporterInfo(
       static_cast<std::size_t>(importer.GetPropertyInteger("importerIndex")));
   if (!by || !std::string_view(by->mName).starts_with(format.importer)) {
     return cannot_read(path, format,
                        fmt::format("it looks like a file for the {}", by ? by->mName : "?"));
-  }
-
-  // The importer of X3D takes any text for an empty scene.
-  if (std::string_view(format.name) == "X3D" && bytes.find("<X3D") == std::string_view::npos) {
-    return cannot_read(path, format, "there is no <X3D> in it");
   }
 
   SceneAxes axes;

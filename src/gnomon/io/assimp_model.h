@@ -24,7 +24,6 @@ bool is_assimp_file(const std::filesystem::path& path);
 //   Collada (.dae .zae)  the file's <up_axis>                          the file's <unit>
 //   FBX                  the file's axes                               the file's UnitScaleFactor
 //   IFC                  z                                             the file's units
-//   X3D                  y                                             metres
 //   STL, PLY, OFF, SMD   z                                             1 m
 //   3DS, MD2, MD3, MD5   z                                             1 m
 //   3MF, AMF             z                                             1 mm
@@ -41,7 +40,8 @@ bool is_assimp_file(const std::filesystem::path& path);
 // and the buffers of glTF are opened; materials' pictures are not needed.
 //
 // Errors name file and element: what cannot be read, coordinates that are not finite, indices out
-// of range, files that are cut off.
+// of range, files that are cut off. Assimp's readers abort on some damaged files; each file is
+// tried out in a forked process first (tried_apart.h), so that it becomes an error here.
 Result<Model> read_assimp(const std::filesystem::path& path, char up, double metres_per_unit);
 
 }  // namespace gnomon

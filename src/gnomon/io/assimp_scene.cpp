@@ -1,6 +1,7 @@
 #include <assimp/scene.h>
 #include <fmt/format.h>
 #include <gnomon/io/assimp_scene.h>
+#include <gnomon/io/digits.h>
 #include <gnomon/io/read_text.h>
 
 #include <algorithm>
@@ -19,10 +20,6 @@ using Mat4 = glm::dmat4;
 
 // Nodes within nodes; deeper ones would overflow the stack, and no modeller makes them.
 constexpr int kDeepestNode = 1000;
-
-// Metres. Rounding to single precision below this is not worth a word: a millimetre of a model is a
-// second of time at most.
-constexpr double kNoticeableLoss = 0.001;
 
 Mat4 to_double(const aiMatrix4x4& m) {
   return Mat4(m.a1, m.b1, m.c1, m.d1, m.a2, m.b2, m.c2, m.d2,  // glm's matrices go by columns

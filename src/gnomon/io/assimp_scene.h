@@ -19,7 +19,7 @@ struct SceneAxes {
 
 // Adds all meshes under all nodes, transformed in double precision; bones are applied in the pose
 // that the file is in. Warns of points, lines, animations, of single precision that loses more than
-// a millimetre and, of IFC, of elements that are not built. Errors (file, object, mesh, vertex):
+// kNoticeableLoss and, of IFC, of elements that are not built. Errors (file, object, mesh, vertex):
 // vertices that are not finite, indices out of range, nodes nested too deeply.
 std::optional<Error> add_assimp_scene(ModelBuilder& builder, const aiScene& scene,
                                       const SceneAxes& axes, bool ifc);

@@ -75,7 +75,8 @@ DigitLoss lost_digits(std::string_view text) {
     const auto exact = real_number(word);
     if (!exact || !std::isfinite(*exact)) continue;
     const double change = std::fabs(*exact - double(static_cast<float>(*exact)));
-    // `exact` is itself rounded to double, which must not push a change of just half a unit over it.
+    // `exact` is itself rounded to double, which must not push a change of just half a unit over
+    // it.
     if (!(change > half_unit(word) + std::ldexp(std::fabs(*exact), -52))) continue;
     ++loss.numbers;
     loss.largest = std::max(loss.largest, change);

@@ -6,6 +6,10 @@
 
 namespace gnomon {
 
+// Metres. Losses up to this, far below what models are accurate to and masks resolve, are not worth
+// a warning: programs write fifteen digits of everything.
+inline constexpr double kNoticeableLoss = 1e-4;
+
 // Numbers that change by more than half a unit of their last written digit when they become single
 // precision: what is written says more than what is kept. Nine significant digits, as %.9g writes
 // a float, never do.
