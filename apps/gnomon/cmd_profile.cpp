@@ -142,7 +142,7 @@ struct Study {
 
 // Between isolines and classes of hours.
 std::uint64_t isoline_step(const Options& o, const Profile& profile) {
-  if (o.isolines.empty())
+  if (o.isolines.empty() || o.isolines == "none")
     return static_cast<std::uint64_t>(std::llround(tick_hours(daylight_hours(profile)) * 3.6e6));
   return static_cast<std::uint64_t>(read_step(o.isolines)->count());
 }
@@ -153,7 +153,7 @@ void check_isoline_step(const std::string& text) {
     throw Failure(
         "the step '" + text +
         "' of --isolines cannot be used: write whole numbers with units, as 1h, 30min or 1h30min, "
-        "at least 1min");
+        "at least 1min, or none");
   }
 }
 
@@ -199,14 +199,18 @@ ViewSamples overlay(const Options& o, const Prepared& all, const Study& study) {
 }
 
 // isolines and tables: what has a place on the map.
-void write_map_data(const Prepared& all, const Study& study, const Profile& profile,
-                    std::uint64_t step_ms, int threads, Staging& staging, Stopwatch& watch) {
+void write_map_data(const Options& o, const Prepared& all, const Study& study,
+                    const Profile& profile, std::uint64_t step_ms, Staging& staging,
+                    Stopwatch& watch) {
+  const int threads = o.common.threads;
   const Scene& scene = all.loaded.scene;
   const auto path = [&](const char* name) { return staging.path(study.folder + name); };
-  const std::vector<Isoline> lines = find_isolines(profile, all.view, step_ms, threads);
-  take(write_isolines_geojson(path("isolines.geojson"), lines, profile.days, scene.frame));
-  take(write_isolines_gpkg(path("isolines.gpkg"), lines, profile.days, scene.frame));
-  watch.stage("isolines");
+  if (o.isolines != "none") {
+    const std::vector<Isoline> lines = find_isolines(profile, all.view, step_ms, threads);
+    take(write_isolines_geojson(path("isolines.geojson"), lines, profile.days, scene.frame));
+    take(write_isolines_gpkg(path("isolines.gpkg"), lines, profile.days, scene.frame));
+    watch.stage("isolines");
+  }
   const std::vector<ObjectHours> objects = hours_by_object(profile, all.receivers, scene, step_ms);
   take(write_summary_csv(path("summary.csv"), profile, all.view, objects, step_ms));
   take(write_objects_csv(path("objects.csv"), profile, all.view, objects));
@@ -254,7 +258,7 @@ Warnings run_study(const Options& o, const Prepared& all, const Study& study, Ti
   watch.stage(map_name);
 
   const std::uint64_t step_ms = camera ? 0 : isoline_step(o, profile);
-  if (!camera) write_map_data(all, study, profile, step_ms, threads, staging, watch);
+  if (!camera) write_map_data(o, all, study, profile, step_ms, staging, watch);
 
   const ViewSamples picture = overlay(o, all, study);
   ViewCaption view_caption;
@@ -298,7 +302,7 @@ std::vector<StudyTimes> study_times(const Options& o) {
         "no time zone given: add --tz Europe/Vienna (an IANA name) or --tz solar (true solar "
         "time)");
   }
-  if (!o.isolines.empty()) check_isoline_step(o.isolines);
+  if (!o.isolines.empty() && o.isolines != "none") check_isoline_step(o.isolines);
   std::vector<StudyTimes> all;
   for (const std::string& date : o.time.dates) {
     take(study_dates(date));
@@ -402,7 +406,7 @@ void add_profile(CLI::App& app) {
   command
       ->add_option("--isolines", options->isolines,
                    "Hours of shadow between isolines, and between the classes of summary.csv: 1h, "
-                   "30min, 1h30min (default: as in the map's legend)")
+                   "30min, 1h30min; none: no isolines (default: as in the map's legend)")
       ->group("Output");
   add_common(*command, options->common);
   command->callback([options] { run(*options); });
