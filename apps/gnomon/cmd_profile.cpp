@@ -17,6 +17,7 @@
 
 #include "commands.h"
 #include "model_options.h"
+#include "picture_lights.h"
 #include "progress.h"
 #include "staging.h"
 #include "study_text.h"
@@ -29,9 +30,6 @@ namespace {
 
 // view.png is drawn at this many samples per pixel along each side, for smooth edges.
 constexpr int kSupersample = 2;
-// view.png lays at most this many shadows over each other; more are thinned evenly, both ends kept,
-// and the caption says so.
-constexpr std::size_t kPictureInstants = 33;
 
 struct Options {
   Common common;
@@ -84,41 +82,6 @@ std::string title_of(const Options& o) {
     title += (title.empty() ? "" : ", ") + stem;
   }
   return title;
-}
-
-// The instants of one day thinned evenly, both ends kept; of a range, a few of each part of the
-// range, at times of day that the golden ratio spreads evenly.
-std::vector<Light> picture_lights(const Samples& samples) {
-  std::vector<std::vector<Light>> days(samples.dates.size());
-  for (const TimeSample& s : samples.instants) {
-    if (s.up) days[s.day].push_back(s.light);
-  }
-  days.erase(std::remove_if(days.begin(), days.end(), [](const auto& d) { return d.empty(); }),
-             days.end());
-  std::vector<Light> out;
-  if (days.size() == 1) {
-    const std::vector<Light>& up = days[0];
-    if (up.size() <= kPictureInstants) return up;
-    for (std::size_t k = 0; k < kPictureInstants; ++k) {
-      out.push_back(up[k * (up.size() - 1) / (kPictureInstants - 1)]);
-    }
-    return out;
-  }
-  for (std::size_t k = 0; !days.empty() && k < kPictureInstants; ++k) {
-    const std::vector<Light>& up = days[k * days.size() / kPictureInstants];
-    const double part = std::fmod(static_cast<double>(k) * 0.61803398874989485, 1.0);
-    out.push_back(up[static_cast<std::size_t>(part * static_cast<double>(up.size()))]);
-  }
-  return out;
-}
-
-// Azimuth in the scene's grid of the sun in the middle of the time it is up.
-double middle_azimuth(const Samples& s) {
-  Vec4 sum(0.0);
-  for (const TimeSample& t : s.midpoints) {
-    if (t.up) sum += t.light;
-  }
-  return std::atan2(sum.x, sum.y);
 }
 
 // What all studies of a run share.
