@@ -17,6 +17,7 @@
 
 #include "commands.h"
 #include "model_options.h"
+#include "picture_lights.h"
 #include "progress.h"
 #include "staging.h"
 #include "study_text.h"
@@ -29,9 +30,6 @@ namespace {
 
 // view.png is drawn at this many samples per pixel along each side, for smooth edges.
 constexpr int kSupersample = 2;
-// view.png lays at most this many shadows over each other; more are thinned evenly, both ends kept,
-// and the caption says so.
-constexpr std::size_t kPictureInstants = 33;
 
 struct Options {
   Common common;
@@ -74,41 +72,6 @@ void remove_other_kind(const Staging& staging, const std::string& folder) {
   }
 }
 
-// The instants of one day thinned evenly, both ends kept; of a range, a few of each part of the
-// range, at times of day that the golden ratio spreads evenly.
-std::vector<Light> picture_lights(const Samples& samples) {
-  std::vector<std::vector<Light>> days(samples.dates.size());
-  for (const TimeSample& s : samples.instants) {
-    if (s.up) days[s.day].push_back(s.light);
-  }
-  days.erase(std::remove_if(days.begin(), days.end(), [](const auto& d) { return d.empty(); }),
-             days.end());
-  std::vector<Light> out;
-  if (days.size() == 1) {
-    const std::vector<Light>& up = days[0];
-    if (up.size() <= kPictureInstants) return up;
-    for (std::size_t k = 0; k < kPictureInstants; ++k) {
-      out.push_back(up[k * (up.size() - 1) / (kPictureInstants - 1)]);
-    }
-    return out;
-  }
-  for (std::size_t k = 0; !days.empty() && k < kPictureInstants; ++k) {
-    const std::vector<Light>& up = days[k * days.size() / kPictureInstants];
-    const double part = std::fmod(static_cast<double>(k) * 0.61803398874989485, 1.0);
-    out.push_back(up[static_cast<std::size_t>(part * static_cast<double>(up.size()))]);
-  }
-  return out;
-}
-
-// Azimuth in the scene's grid of the sun in the middle of the time it is up.
-double middle_azimuth(const Samples& s) {
-  Vec4 sum(0.0);
-  for (const TimeSample& t : s.midpoints) {
-    if (t.up) sum += t.light;
-  }
-  return std::atan2(sum.x, sum.y);
-}
-
 // What all studies of a run share.
 struct Prepared {
   const LoadedScene& loaded;
@@ -130,7 +93,7 @@ struct Study {
 
 // Between isolines and classes of hours.
 std::uint64_t isoline_step(const Options& o, const Profile& profile) {
-  if (o.isolines.empty())
+  if (o.isolines.empty() || o.isolines == "none")
     return static_cast<std::uint64_t>(std::llround(tick_hours(daylight_hours(profile)) * 3.6e6));
   return static_cast<std::uint64_t>(read_step(o.isolines)->count());
 }
@@ -141,7 +104,7 @@ void check_isoline_step(const std::string& text) {
     throw Failure(
         "the step '" + text +
         "' of --isolines cannot be used: write whole numbers with units, as 1h, 30min or 1h30min, "
-        "at least 1min");
+        "at least 1min, or none");
   }
 }
 
@@ -187,14 +150,18 @@ ViewSamples overlay(const Options& o, const Prepared& all, const Study& study) {
 }
 
 // isolines and tables: what has a place on the map.
-void write_map_data(const Prepared& all, const Study& study, const Profile& profile,
-                    std::uint64_t step_ms, int threads, Staging& staging, Stopwatch& watch) {
+void write_map_data(const Options& o, const Prepared& all, const Study& study,
+                    const Profile& profile, std::uint64_t step_ms, Staging& staging,
+                    Stopwatch& watch) {
+  const int threads = o.common.threads;
   const Scene& scene = all.loaded.scene;
   const auto path = [&](const char* name) { return staging.path(study.folder + name); };
-  const std::vector<Isoline> lines = find_isolines(profile, all.view, step_ms, threads);
-  take(write_isolines_geojson(path("isolines.geojson"), lines, profile.days, scene.frame));
-  take(write_isolines_gpkg(path("isolines.gpkg"), lines, profile.days, scene.frame));
-  watch.stage("isolines");
+  if (o.isolines != "none") {
+    const std::vector<Isoline> lines = find_isolines(profile, all.view, step_ms, threads);
+    take(write_isolines_geojson(path("isolines.geojson"), lines, profile.days, scene.frame));
+    take(write_isolines_gpkg(path("isolines.gpkg"), lines, profile.days, scene.frame));
+    watch.stage("isolines");
+  }
   const std::vector<ObjectHours> objects = hours_by_object(profile, all.receivers, scene, step_ms);
   take(write_summary_csv(path("summary.csv"), profile, all.view, objects, step_ms));
   take(write_objects_csv(path("objects.csv"), profile, all.view, objects));
@@ -242,7 +209,7 @@ Warnings run_study(const Options& o, const Prepared& all, const Study& study, Ti
   watch.stage(map_name);
 
   const std::uint64_t step_ms = camera ? 0 : isoline_step(o, profile);
-  if (!camera) write_map_data(all, study, profile, step_ms, threads, staging, watch);
+  if (!camera) write_map_data(o, all, study, profile, step_ms, staging, watch);
 
   const ViewSamples picture = overlay(o, all, study);
   ViewCaption view_caption;
@@ -286,7 +253,7 @@ std::vector<StudyTimes> study_times(const Options& o) {
         "no time zone given: add --tz Europe/Vienna (an IANA name) or --tz solar (true solar "
         "time)");
   }
-  if (!o.isolines.empty()) check_isoline_step(o.isolines);
+  if (!o.isolines.empty() && o.isolines != "none") check_isoline_step(o.isolines);
   std::vector<StudyTimes> all;
   for (const std::string& date : o.time.dates) {
     take(study_dates(date));
@@ -393,7 +360,7 @@ void add_profile(CLI::App& app) {
   command
       ->add_option("--isolines", options->isolines,
                    "Hours of shadow between isolines, and between the classes of summary.csv: 1h, "
-                   "30min, 1h30min (default: as in the map's legend)")
+                   "30min, 1h30min; none: no isolines (default: as in the map's legend)")
       ->group("Output");
   add_common(*command, options->common);
   command->callback([options] { run(*options); });

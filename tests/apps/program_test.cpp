@@ -13,14 +13,15 @@ namespace {
 namespace fs = std::filesystem;
 using gnomon::testing::Program;
 
-TEST_F(Program, ProfileWritesItsFourFilesAndNothingElse) {
+TEST_F(Program, ProfileWritesItsFilesAndNothingElse) {
   ASSERT_EQ(run(profile(day_ + " --pixel 4")), 0) << err_;
   std::vector<std::string> names;
   for (const auto& f : fs::directory_iterator(results()))
     names.push_back(f.path().filename().string());
   std::sort(names.begin(), names.end());
-  EXPECT_EQ(names,
-            (std::vector<std::string>{"plan.png", "profile.tif", "summary.json", "view.png"}));
+  EXPECT_EQ(names, (std::vector<std::string>{"isolines.geojson", "isolines.gpkg", "objects.csv",
+                                             "plan.png", "profile.tif", "summary.csv",
+                                             "summary.json", "view.png"}));
 }
 
 TEST_F(Program, SummaryTellsMidpointsWithDirectionsTowardsTheSun) {
@@ -69,6 +70,53 @@ TEST_F(Program, CameraGivesHoursAndAViewWithoutAMap) {
   EXPECT_TRUE(fs::exists(results() + "/hours.png"));
   EXPECT_TRUE(fs::exists(results() + "/view.png"));
   EXPECT_FALSE(fs::exists(results() + "/plan.png"));
+}
+
+TEST_F(Program, SeveralDatesHaveAFolderEach) {
+  ASSERT_EQ(
+      run(profile("--date 2024-03-21 --date 2024-04-01..2024-04-20/7d --from 09:00 --to 12:00 "
+                  "--tz Europe/Vienna --pixel 8")),
+      0)
+      << err_;
+  for (const char* folder : {"2024-03-21", "2024-04-01..2024-04-20_7d"}) {
+    for (const char* file : {"profile.tif", "plan.png", "view.png", "summary.json", "summary.csv",
+                             "objects.csv", "isolines.geojson", "isolines.gpkg"}) {
+      EXPECT_TRUE(fs::exists(fs::path(results()) / folder / file)) << folder << "/" << file;
+    }
+  }
+  EXPECT_EQ(std::distance(fs::directory_iterator(results()), fs::directory_iterator()), 2);
+  const auto day = nlohmann::json::parse(text(results() + "/2024-03-21/summary.json"));
+  EXPECT_EQ(day["result"]["days"], 1);
+  EXPECT_EQ(day["result"]["daylight_h"], 3.0);
+  const auto range =
+      nlohmann::json::parse(text(results() + "/2024-04-01..2024-04-20_7d/summary.json"));
+  EXPECT_EQ(range["inputs"]["date"], "2024-04-01..2024-04-20/7d");
+  EXPECT_EQ(range["window"]["dates"].size(), 3u);
+  EXPECT_EQ(range["samples"].size(), 9u);
+  EXPECT_EQ(range["result"]["days"], 3);
+  EXPECT_EQ(range["result"]["daylight_h"], 3.0) << "per day";
+  EXPECT_EQ(range["outputs"].size(), 8u);
+}
+
+TEST_F(Program, DatesThatCannotBeAreRefusedBeforeAnythingIsRead) {
+  const std::string rest = " --from 09:00 --to 12:00 --tz UTC --pixel 8";
+  EXPECT_NE(run(profile("--date 2024-04-02..2024-04-01" + rest)), 0);
+  EXPECT_NE(err_.find("ends before it begins"), std::string::npos) << err_;
+  EXPECT_NE(run(profile("--date 2024-04-02 --date 2024-04-02" + rest)), 0);
+  EXPECT_NE(err_.find("twice"), std::string::npos) << err_;
+  EXPECT_NE(run(profile("--date 2024-04-02 --isolines often" + rest)), 0);
+  EXPECT_NE(err_.find("--isolines"), std::string::npos) << err_;
+  EXPECT_FALSE(fs::exists(results()));
+}
+
+TEST_F(Program, CameraRemovesWhatAPlanLeft) {
+  ASSERT_EQ(run(profile(day_ + " --pixel 8 --isolines 2h")), 0) << err_;
+  EXPECT_TRUE(fs::exists(results() + "/isolines.gpkg"));
+  ASSERT_EQ(run(profile(day_ + " --view camera --size 80x50")), 0) << err_;
+  for (const char* file :
+       {"plan.png", "isolines.geojson", "isolines.gpkg", "summary.csv", "objects.csv"}) {
+    EXPECT_FALSE(fs::exists(fs::path(results()) / file)) << file;
+  }
 }
 
 TEST_F(Program, VerifyFindsNoDifference) {

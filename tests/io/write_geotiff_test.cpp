@@ -126,6 +126,38 @@ TEST(WriteGeotiff, NamesBandsUnitAndNodata) {
   }
 }
 
+TEST(WriteGeotiff, FirstAndLastSunAreClockTimesAndNodataWhereTheSunNeverComes) {
+  const TestFolder folder;
+  Profile p = quarters(40, 30);
+  p.days = 3;
+  p.first_lit.assign(p.valid.size(), 1);
+  p.last_lit.assign(p.valid.size(), 0);
+  p.lit_from_ms = {32'400'000, 33'300'000};  // 9:00, 9:15
+  p.lit_to_ms = {61'200'000};                // 17:00
+  p.first_lit[1] = kNeverLit;
+  ASSERT_TRUE(write_profile_geotiff(folder / "profile.tif", p, plan(40, 30, 1), vienna(), {}));
+  const Dataset file = open(folder / "profile.tif");
+  ASSERT_TRUE(file);
+  ASSERT_EQ(GDALGetRasterCount(file.get()), 4);
+  EXPECT_EQ(item(file.get(), "DAYS", nullptr), "3");
+  const char* names[] = {"hours in shadow per day", "hours of sun per day", "first sun",
+                         "last sun"};
+  for (int k = 0; k < 4; ++k) {
+    const GDALRasterBandH band = GDALGetRasterBand(file.get(), k + 1);
+    EXPECT_STREQ(GDALGetDescription(band), names[k]);
+    EXPECT_STREQ(GDALGetRasterUnitType(band), "h");
+  }
+  const std::vector<float> hours = read(GDALGetRasterBand(file.get(), 1), 40, 30);
+  const std::vector<float> first = read(GDALGetRasterBand(file.get(), 3), 40, 30);
+  const std::vector<float> last = read(GDALGetRasterBand(file.get(), 4), 40, 30);
+  EXPECT_EQ(hours[2], static_cast<float>(0.5 / 3));
+  EXPECT_EQ(first[0], kNoDataHours) << "no sample";
+  EXPECT_EQ(first[1], kNoDataHours) << "never lit";
+  EXPECT_EQ(last[1], kNoDataHours);
+  EXPECT_EQ(first[2], 9.25F);
+  EXPECT_EQ(last[2], 17.0F);
+}
+
 TEST(WriteGeotiff, IsTiledAndDeflated) {
   const TestFolder folder;
   ASSERT_TRUE(write_profile_geotiff(folder / "profile.tif", quarters(600, 600), plan(600, 600, 1),
@@ -258,7 +290,8 @@ TEST(WriteGeotiff, LeavesTheOlderFileWhenTheDiskIsFull) {
   ASSERT_TRUE(write_text_file(folder / "profile.tif", "older result"));
   Profile p = quarters(700, 700);
   std::mt19937 noise(1);  // does not compress
-  for (std::uint32_t& ms : p.shadow_ticks) ms = static_cast<std::uint32_t>(noise() % p.daylight_ticks);
+  for (std::uint32_t& ms : p.shadow_ticks)
+    ms = static_cast<std::uint32_t>(noise() % p.daylight_ticks);
   // Full from the start, after some tiles, and only when the directory is written at the end.
   for (const rlim_t bytes : {rlim_t{10}, rlim_t{100'000}, rlim_t{1'500'000}}) {
     ::testing::internal::CaptureStderr();

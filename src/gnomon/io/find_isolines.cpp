@@ -16,14 +16,15 @@
 namespace gnomon {
 namespace {
 
-constexpr double kKept = 0.25;  // samples: how far a point may be from the line that leaves it out
+constexpr double kKept = 0.75;    // samples: how far points left out may be from the line
 constexpr double kNoMean = -1.0;  // where there is no sample
 
-double distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
+double squared_distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
   const Vec2 ab = b - a, ap = p - a;
   const double length2 = ab.x * ab.x + ab.y * ab.y;
   const double t = length2 > 0 ? std::clamp((ap.x * ab.x + ap.y * ab.y) / length2, 0.0, 1.0) : 0.0;
-  return std::hypot(ap.x - t * ab.x, ap.y - t * ab.y);
+  const double x = ap.x - t * ab.x, y = ap.y - t * ab.y;
+  return x * x + y * y;
 }
 
 // Douglas and Peucker 1973.
@@ -34,10 +35,10 @@ std::vector<Vec2> simplified(const std::vector<Vec2>& line) {
   while (!parts.empty()) {
     const auto [first, last] = parts.back();
     parts.pop_back();
-    double farthest = kKept;
+    double farthest = kKept * kKept;
     std::size_t at = first;
     for (std::size_t k = first + 1; k < last; ++k) {
-      const double d = distance_to_segment(line[k], line[first], line[last]);
+      const double d = squared_distance_to_segment(line[k], line[first], line[last]);
       if (d > farthest) {
         farthest = d;
         at = k;
@@ -55,27 +56,30 @@ std::vector<Vec2> simplified(const std::vector<Vec2>& line) {
   return out;
 }
 
-// Weighted sums of a row of samples: those there are, and those that reach the level.
+// Weighted sums along a row of samples: of those there are, and of those that reach the level.
 struct RowSums {
+  std::vector<std::uint8_t> is_there, is_reached;  // with a sample that is not on either side
   std::vector<int> there, reached;
+
+  explicit RowSums(int width)
+      : is_there(static_cast<std::size_t>(width) + 2, 0),
+        is_reached(static_cast<std::size_t>(width) + 2, 0),
+        there(static_cast<std::size_t>(width), 0),
+        reached(static_cast<std::size_t>(width), 0) {}
 };
 
-void sum_row(const Profile& p, int row, std::uint64_t level_ms, RowSums& out) {
-  const int width = p.width;
-  out.there.assign(static_cast<std::size_t>(width), 0);
-  out.reached.assign(static_cast<std::size_t>(width), 0);
-  if (row < 0 || row >= p.height) return;
-  for (int x = 0; x < width; ++x) {
-    const std::size_t k = static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
-                          static_cast<std::size_t>(x);
-    if (p.valid[k] == 0) continue;
-    const int is = reaches(p, k, level_ms) ? 1 : 0;
-    for (int step = -1; step <= 1; ++step) {
-      if (x + step < 0 || x + step >= width) continue;
-      const int weight = step == 0 ? 2 : 1;
-      out.there[static_cast<std::size_t>(x + step)] += weight;
-      out.reached[static_cast<std::size_t>(x + step)] += weight * is;
-    }
+void sum_row(const Profile& p, int row, std::uint32_t least_ticks, RowSums& out) {
+  const std::size_t width = static_cast<std::size_t>(p.width);
+  const bool inside = row >= 0 && row < p.height;
+  const std::size_t begin = inside ? static_cast<std::size_t>(row) * width : 0;
+  for (std::size_t x = 0; x < width; ++x) {
+    const bool there = inside && p.valid[begin + x] != 0;
+    out.is_there[x + 1] = there ? 1 : 0;
+    out.is_reached[x + 1] = there && p.shadow_ticks[begin + x] >= least_ticks ? 1 : 0;
+  }
+  for (std::size_t x = 0; x < width; ++x) {
+    out.there[x] = out.is_there[x] + 2 * out.is_there[x + 1] + out.is_there[x + 2];
+    out.reached[x] = out.is_reached[x] + 2 * out.is_reached[x + 1] + out.is_reached[x + 2];
   }
 }
 
@@ -109,12 +113,13 @@ std::vector<Isoline> lines_at(const Profile& p, const View& view, std::uint64_t 
   // Means lie between 0 and 1: of the levels 1/2, 3/2, ... there is one.
   const std::unique_ptr<void, DestroyGenerator> generator(
       GDAL_CG_Create(p.width, p.height, TRUE, kNoMean, 1.0, 0.5, collect, &collector));
-  RowSums above, here, below;
-  sum_row(p, -1, level_ms, above);
-  sum_row(p, 0, level_ms, here);
+  RowSums above(p.width), here(p.width), below(p.width);
+  const std::uint32_t least = least_ticks(p, level_ms);
+  sum_row(p, -1, least, above);
+  sum_row(p, 0, least, here);
   std::vector<double> means(static_cast<std::size_t>(p.width));
   for (int row = 0; row < p.height; ++row) {
-    sum_row(p, row + 1, level_ms, below);
+    sum_row(p, row + 1, least, below);
     for (std::size_t x = 0; x < means.size(); ++x) {
       const std::size_t k = static_cast<std::size_t>(row) * means.size() + x;
       const int there = above.there[x] + 2 * here.there[x] + below.there[x];

@@ -25,11 +25,11 @@ struct Isoline {
 // contoured, give stairs of pixels, shifted by how much they jump. Instead, for each level, the
 // samples that reach it (exactly, as in profile.tif) are averaged over 3 x 3 samples with the
 // weights 1 2 1 each way, those without a surface left out, and the line is drawn where the mean is
-// one half; then points are left out as long as the line stays within a quarter of a sample. So
-// lines lie within one and a quarter samples of where profile.tif changes, lines of different
-// levels do not cross by more than that quarter, and spots and gaps one sample wide may have no
-// line of their own. They end where there is no surface. Preconditions: is_plan(plan), of the
-// profile's size; step_ms > 0.
+// one half; then points are left out as long as none is more than three quarters of a sample from
+// the line: more than the stairs of a slanting edge, which become straight. So lines lie within two
+// samples of where profile.tif changes, lines of different levels may cross by less than two, and
+// spots and gaps one sample wide may have no line of their own. Lines end where there is no
+// surface. Preconditions: is_plan(plan), of the profile's size; step_ms > 0.
 std::vector<Isoline> find_isolines(const Profile& profile, const View& plan, std::uint64_t step_ms,
                                    int threads = 0);
 

@@ -1,6 +1,10 @@
+#include <cpl_conv.h>
+#include <cpl_vsi.h>
+#include <fmt/format.h>
 #include <ogr_api.h>
 #include <ogrsf_frmts.h>
 
+#include <memory>
 #include <mutex>
 
 #include <gnomon/io/gdal_support.h>
@@ -54,9 +58,11 @@ bool write_features(OGRLayerH layer, const std::vector<Isoline>& lines, int days
   return true;
 }
 
-Result<FileWritten> write_isolines(const char* driver, const std::filesystem::path& path,
-                                   const std::vector<Isoline>& lines, int days, const Frame& frame,
-                                   const OptionList& layer_options) {
+// Writes the new file `file` with the driver; `path` is for messages. Nothing: all is well.
+std::optional<Error> write_lines(const char* driver, const std::string& file,
+                                 const std::filesystem::path& path,
+                                 const std::vector<Isoline>& lines, int days, const Frame& frame,
+                                 const OptionList& layer_options) {
   static std::once_flag registered;
   std::call_once(registered, [] {
     RegisterOGRGeoJSON();
@@ -65,21 +71,15 @@ Result<FileWritten> write_isolines(const char* driver, const std::filesystem::pa
   GdalErrors errors;
   auto found = horizontal_crs(frame, path, errors);
   if (!found) return found.error();
-  const std::optional<OGRSpatialReference> crs = std::move(found).value();
-  Result<AtomicFile> file = AtomicFile::create(path);
-  if (!file) return file.error();
-  // The drivers make their files themselves and refuse one that is there.
-  std::error_code ignored;
-  std::filesystem::remove(file.value().temporary(), ignored);
+  std::optional<OGRSpatialReference> crs = std::move(found).value();
 
   // Nothing is promised about power cuts; see AtomicFile.
   const ThreadSetting no_sync("OGR_SQLITE_SYNCHRONOUS", "OFF");
-  Dataset dataset(GDALCreate(GDALGetDriverByName(driver), file.value().temporary().c_str(), 0, 0, 0,
-                             GDT_Unknown, nullptr));
+  Dataset dataset(
+      GDALCreate(GDALGetDriverByName(driver), file.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
   if (!dataset) return gdal_error(path, errors);
-  OGRSpatialReference copy = crs.value_or(OGRSpatialReference());
   const OGRLayerH layer = GDALDatasetCreateLayer(
-      dataset.get(), kLayer, crs ? OGRSpatialReference::ToHandle(&copy) : nullptr, wkbLineString,
+      dataset.get(), kLayer, crs ? OGRSpatialReference::ToHandle(&*crs) : nullptr, wkbLineString,
       layer_options.get());
   if (layer == nullptr) return gdal_error(path, errors);
   add_field(layer, "hours", OFTReal);
@@ -92,7 +92,7 @@ Result<FileWritten> write_isolines(const char* driver, const std::filesystem::pa
   if (transaction && written) GDALDatasetCommitTransaction(dataset.get());
   dataset.reset();  // what is left is written now, and may fail now
   if (!written || errors.first()) return gdal_error(path, errors);
-  return file.value().commit();
+  return {};
 }
 
 }  // namespace
@@ -103,13 +103,34 @@ Result<FileWritten> write_isolines_geojson(const std::filesystem::path& path,
   OptionList options;
   options.set("RFC7946", "NO");
   options.set("COORDINATE_PRECISION", "3");
-  return write_isolines("GeoJSON", path, lines, days, frame, options);
+  // In memory first: GDAL's GeoJSON driver does not notice a disk that is full.
+  const std::string memory =
+      fmt::format("/vsimem/gnomon/{}.geojson", static_cast<const void*>(&lines));
+  const std::optional<Error> error =
+      write_lines("GeoJSON", memory, path, lines, days, frame, options);
+  vsi_l_offset size = 0;
+  const std::unique_ptr<GByte, decltype(&VSIFree)> bytes(
+      VSIGetMemFileBuffer(memory.c_str(), &size, TRUE), &VSIFree);
+  if (error) return *error;
+  if (!bytes) return gdal_error(path, {});
+  return write_text_file(path, {reinterpret_cast<const char*>(bytes.get()), size});
 }
 
 Result<FileWritten> write_isolines_gpkg(const std::filesystem::path& path,
                                         const std::vector<Isoline>& lines, int days,
                                         const Frame& frame) {
-  return write_isolines("GPKG", path, lines, days, frame, OptionList());
+  Result<AtomicFile> file = AtomicFile::create(path);
+  if (!file) return file.error();
+  const std::filesystem::path temporary = file.value().temporary();
+  std::error_code ignored;
+  std::filesystem::remove(temporary, ignored);  // GDAL refuses a file that is there
+  if (const std::optional<Error> error =
+          write_lines("GPKG", temporary.string(), path, lines, days, frame, OptionList())) {
+    for (const char* journal : {"-journal", "-wal", "-shm"})
+      std::filesystem::remove(temporary.string() + journal, ignored);
+    return *error;
+  }
+  return file.value().commit();
 }
 
 }  // namespace gnomon

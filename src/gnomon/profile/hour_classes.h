@@ -10,10 +10,11 @@ namespace gnomon {
 
 // Levels are whole multiples of `step_ms` > 0, milliseconds of shadow per day.
 
-// True where sample k has at least `level_ms` of shadow per day. Whole numbers: exact.
-inline bool reaches(const Profile& p, std::size_t k, std::uint64_t level_ms) {
-  return std::uint64_t{p.shadow_ticks[k]} * p.tick_ms >=
-         level_ms * static_cast<std::uint64_t>(p.days);
+// The least ticks of a sample that has `level_ms` of shadow per day, a level not above the
+// daylight. Whole numbers: exact.
+inline std::uint32_t least_ticks(const Profile& p, std::uint64_t level_ms) {
+  const std::uint64_t all_days = level_ms * static_cast<std::uint64_t>(p.days);
+  return static_cast<std::uint32_t>((all_days + p.tick_ms - 1) / p.tick_ms);
 }
 
 // Levels above 0 that are not above the daylight per day.
