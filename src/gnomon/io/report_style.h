@@ -27,11 +27,11 @@ dd { margin: 0 0 0.5rem; white-space: pre-line; }
 table { border-collapse: collapse; font-size: 0.9rem; line-height: 1.35; overflow-wrap: normal; }
 th, td { text-align: left; vertical-align: top; padding: 0.25rem 0.7rem 0.25rem 0.4rem;
   border-bottom: 1px solid #dddce2; font-variant-numeric: tabular-nums; }
-td { overflow-wrap: anywhere; min-width: 3.5rem; }
+td { overflow-wrap: break-word; }
 th { background: #f2f1f4; white-space: nowrap; }
 .n { text-align: right; white-space: nowrap; }
 thead td.bar { background: #f2f1f4; }
-td.bar { width: 60%; min-width: 6rem; vertical-align: middle; }
+td.bar { width: 60%; min-width: 2.5rem; vertical-align: middle; }
 td.bar svg { display: block; width: 100%; height: 0.8rem; overflow: visible; }
 .note, figcaption, footer { color: #45434b; font-size: 0.9rem; }
 figure { margin: 1.2rem 0; }
@@ -39,6 +39,9 @@ figcaption { margin-top: 0.4rem; max-width: 46rem; }
 img { display: block; width: 100%; height: auto; }
 .sun svg { display: block; width: 100%; max-width: 34rem; height: auto; }
 footer { border-top: 1px solid #c9c8ce; }
+@media (max-width: 30rem) {
+  th, td { padding-left: 0.2rem; padding-right: 0.4rem; font-size: 0.8rem; }
+}
 @media (min-width: 40rem) {
   dl > div { display: grid; grid-template-columns: 13rem 1fr; gap: 1rem; }
   dt { font-size: 1rem; }
@@ -57,6 +60,9 @@ footer { border-top: 1px solid #c9c8ce; }
   .tall thead th { position: static; }
   thead { display: table-header-group; }
   tr, figure, dl > div { break-inside: avoid; }
+  dt { font-size: inherit; }
+  td { overflow-wrap: anywhere; }
+  .note, figcaption { break-before: avoid; }
   p { orphans: 3; widows: 3; }
   th, td { padding-top: 0.6mm; padding-bottom: 0.6mm; }
   a { color: inherit; text-decoration: none; }

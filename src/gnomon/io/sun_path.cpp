@@ -234,7 +234,10 @@ std::optional<Error> draw_day(Drawing& d, const SunPathDay& day, const char* col
     for (const HourMark& mark : marks.value()) {
       const Way w = way(d, mark.utc);
       d.line(w.at - 3.5 * w.normal, w.at + 3.5 * w.normal, "#1c1b20", 1.1);
-      d.text(w.at + 12.0 * side * w.normal, "middle", 10, "#1c1b20", fmt::format("{}", mark.hour));
+      // Labels stay inside the rim, whose own labels stand outside.
+      Vec2 label = w.at + 12.0 * side * w.normal;
+      if (glm::length(label - kCentre) > kRadius - 5) label = w.at - 12.0 * side * w.normal;
+      d.text(label, "middle", 10, "#1c1b20", fmt::format("{}", mark.hour));
     }
   }
   // Small enough to stay apart on an arc of about 300 units.
@@ -246,7 +249,8 @@ std::optional<Error> draw_day(Drawing& d, const SunPathDay& day, const char* col
   return {};
 }
 
-void draw_legend(Drawing& d, std::chrono::year year, const std::vector<std::string>& below) {
+// Returns the height of the whole drawing.
+double draw_legend(Drawing& d, std::chrono::year year, const std::vector<std::string>& below) {
   double y = kLegendTop;
   const auto words = [&](double x, const std::string& text) {
     d.text({x, y}, "start", 10, "#1c1b20", text);
@@ -271,10 +275,12 @@ void draw_legend(Drawing& d, std::chrono::year year, const std::vector<std::stri
   words(288, "full hours");
   y += kLegendLine;
   d.line({14, y}, {40, y}, "#9d9ba3", 1);
-  std::string note = fmt::format("solstices and equinoxes of {}", static_cast<int>(year));
-  for (std::size_t k = 0; k < below.size(); ++k)
-    note += (k == 0 ? " (below the horizon: " : ", ") + below[k];
-  words(46, note + (below.empty() ? "" : ")"));
+  words(46, fmt::format("solstices and equinoxes of {}", static_cast<int>(year)));
+  for (const std::string& name : below) {
+    y += kLegendLine;
+    words(46, name + ": the sun stays below the horizon");
+  }
+  return y + kLegendLine;
 }
 
 }  // namespace
@@ -336,13 +342,9 @@ Result<std::string> sun_path_svg(const SunPath& path) {
   const std::chrono::year year =
       std::chrono::year_month_day(std::chrono::sys_days(date.time_since_epoch())).year();
 
-  const double height = kLegendTop + kLegendLine * (static_cast<double>(path.days.size()) + 1) + 10;
   std::string label = "Sun-path diagram: " + path.days[0].label;
   for (std::size_t k = 1; k < path.days.size(); ++k) label += "; " + path.days[k].label;
-  Drawing d{fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {:g} {:g}\" "
-                        "role=\"img\" aria-label=\"{}\" font-family=\"sans-serif\">\n",
-                        kWidth, height, html_text(label)),
-            path};
+  Drawing d{"", path};
   const Instant middle = path.days[0].begin + (path.days[0].end - path.days[0].begin) / 2;
   const SunPosition noon =
       sun_position(sun_arc(middle, path.place, path.air).transit, path.place, path.air);
@@ -352,8 +354,12 @@ Result<std::string> sun_path_svg(const SunPath& path) {
     if (const auto failed = draw_day(d, path.days[k], kDayColours[k % kDayColours.size()]))
       return *failed;
   }
-  draw_legend(d, year, below);
-  return d.svg + "</svg>\n";
+  const double height = draw_legend(d, year, below);
+  return fmt::format(
+             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {:g} {:g}\" role=\"img\" "
+             "aria-label=\"{}\" font-family=\"sans-serif\">\n",
+             kWidth, height, html_text(label)) +
+         d.svg + "</svg>\n";
 }
 
 }  // namespace gnomon

@@ -174,7 +174,7 @@ void add_header(std::string& out, const Report& report) {
   out += fmt::format("<p><a href=\"#warnings\">{}</a></p>\n",
                      report.warnings.empty() ? "No warnings"
                                              : counted(report.warnings.size(), "kind") +
-                                                   " of warnings, listed at the end");
+                                                   " of warning, listed at the end");
   if (report.sections.size() > 1) {
     out += "<nav class=\"screen\" aria-label=\"Dates\"><ul>\n";
     for (std::size_t k = 0; k < report.sections.size(); ++k) {
