@@ -19,6 +19,7 @@
 #include "model_options.h"
 #include "picture_lights.h"
 #include "progress.h"
+#include "report.h"
 #include "staging.h"
 #include "study_text.h"
 #include "summary.h"
@@ -149,10 +150,10 @@ ViewSamples overlay(const Options& o, const Prepared& all, const Study& study) {
   return picture;
 }
 
-// isolines and tables: what has a place on the map.
-void write_map_data(const Options& o, const Prepared& all, const Study& study,
-                    const Profile& profile, std::uint64_t step_ms, Staging& staging,
-                    Stopwatch& watch) {
+// isolines and tables: what has a place on the map. Returns the objects of the tables.
+std::vector<ObjectHours> write_map_data(const Options& o, const Prepared& all, const Study& study,
+                                        const Profile& profile, std::uint64_t step_ms,
+                                        Staging& staging, Stopwatch& watch) {
   const int threads = o.common.threads;
   const Scene& scene = all.loaded.scene;
   const auto path = [&](const char* name) { return staging.path(study.folder + name); };
@@ -162,16 +163,22 @@ void write_map_data(const Options& o, const Prepared& all, const Study& study,
     take(write_isolines_gpkg(path("isolines.gpkg"), lines, profile.days, scene.frame));
     watch.stage("isolines");
   }
-  const std::vector<ObjectHours> objects = hours_by_object(profile, all.receivers, scene, step_ms);
+  std::vector<ObjectHours> objects = hours_by_object(profile, all.receivers, scene, step_ms);
   take(write_summary_csv(path("summary.csv"), profile, all.view, objects, step_ms));
   take(write_objects_csv(path("objects.csv"), profile, all.view, objects));
   watch.stage("summary.csv");
+  return objects;
 }
 
-// Computes one study and stages its results. `timings`: of what came before. Returns the warnings
-// of the study alone.
-Warnings run_study(const Options& o, const Prepared& all, const Study& study, Timings timings,
-                   Staging& staging) {
+// What a study leaves for the end of the run.
+struct StudyDone {
+  Warnings warnings;  // of the study alone
+  ReportSection section;
+};
+
+// Computes one study and stages its results. `timings`: of what came before.
+StudyDone run_study(const Options& o, const Prepared& all, const Study& study, Timings timings,
+                    Staging& staging) {
   Stopwatch watch(timings);
   const Scene& scene = all.loaded.scene;
   const bool camera = wants_camera(o.view);
@@ -204,12 +211,13 @@ Warnings run_study(const Options& o, const Prepared& all, const Study& study, Ti
   plan_caption.attribution = o.attribution;
   const char* map_name = camera ? "hours.png" : "plan.png";
   const PlanRelief relief = camera ? PlanRelief{} : plan_relief(scene, all.receivers, threads);
-  take(write_plan_picture(path(map_name), profile, all.view, scene.frame, plan_caption, relief,
-                          threads));
+  const std::filesystem::path map_path = path(map_name);
+  take(write_plan_picture(map_path, profile, all.view, scene.frame, plan_caption, relief, threads));
   watch.stage(map_name);
 
-  const std::uint64_t step_ms = camera ? 0 : isoline_step(o, profile);
-  if (!camera) write_map_data(o, all, study, profile, step_ms, staging, watch);
+  const std::uint64_t step_ms = isoline_step(o, profile);
+  std::vector<ObjectHours> objects;
+  if (!camera) objects = write_map_data(o, all, study, profile, step_ms, staging, watch);
 
   const ViewSamples picture = overlay(o, all, study);
   ViewCaption view_caption;
@@ -218,7 +226,8 @@ Warnings run_study(const Options& o, const Prepared& all, const Study& study, Ti
                         fmt::format("{} shadows laid over each other", picture.instants)};
   view_caption.software = all.software;
   view_caption.attribution = o.attribution;
-  take(write_view_picture(path("view.png"), picture, view_caption, threads));
+  const std::filesystem::path view_path = path("view.png");
+  take(write_view_picture(view_path, picture, view_caption, threads));
   watch.stage("view.png");
 
   const std::filesystem::path summary_path = path("summary.json");
@@ -229,11 +238,19 @@ Warnings run_study(const Options& o, const Prepared& all, const Study& study, Ti
   double total = 0;
   for (const auto& stage : timings) total += stage.second;
   timings.emplace_back("total", total);
-  const Summary summary{o.models,      study.times,    all.loaded,
-                        study.samples, all.view,       profile,
-                        stats,         all.visibility, timings,
-                        outputs,       threads,        static_cast<std::size_t>(picture.instants),
-                        step_ms};
+  const Summary summary{o.models,
+                        study.times,
+                        all.loaded,
+                        study.samples,
+                        all.view,
+                        profile,
+                        stats,
+                        all.visibility,
+                        timings,
+                        outputs,
+                        threads,
+                        static_cast<std::size_t>(picture.instants),
+                        camera ? 0 : step_ms};
   Warnings every = scene.warnings;
   append(every, warnings);
   take(write_text_file(summary_path, summary_json(summary, every)));
@@ -241,7 +258,28 @@ Warnings run_study(const Options& o, const Prepared& all, const Study& study, Ti
     fmt::print("{}\n{}; {}; the sun was up for {:.2f} h {}\n", all.title, study.window, study.steps,
                daylight_hours(profile), profile.days > 1 ? "a day" : "of it");
   }
-  return warnings;
+  const double area = camera ? 0 : all.view.right.x * all.view.right.x;
+  return {warnings,
+          report_section({study.times, study.samples, profile, study.window, study.steps, area,
+                          step_ms, std::move(objects), map_path, view_path, picture.instants})};
+}
+
+// Every option, for the report.
+Json all_inputs(const Options& o) {
+  Json inputs = model_inputs_json(o.models);
+  const StudyTimes& t = o.time.times;
+  inputs["date"] = o.time.dates;
+  inputs["from"] = t.from.empty() ? Json("sunrise") : Json(t.from);
+  inputs["to"] = t.to.empty() ? Json("sunset") : Json(t.to);
+  inputs["every"] = t.every;
+  inputs["tz"] = t.zone;
+  inputs["view"] = wants_camera(o.view) ? "camera" : "plan";
+  inputs["pixel"] = o.view.pixel > 0 ? Json(o.view.pixel) : Json("chosen");
+  inputs["bounds"] = text_or_null(o.view.bounds);
+  inputs["eye"] = text_or_null(o.view.eye);
+  inputs["target"] = text_or_null(o.view.target);
+  inputs["isolines"] = o.isolines.empty() ? Json("chosen") : Json(o.isolines);
+  return inputs;
 }
 
 // One for each --date. Everything that can be refused is, before the model is read.
@@ -318,7 +356,15 @@ void run(const Options& o) {
                      std::string("gnomon ") + GNOMON_VERSION};
   Warnings warnings = scene.warnings;
   Staging staging(o.output);
-  for (const Study& study : studies) append(warnings, run_study(o, all, study, timings, staging));
+  std::vector<ReportSection> sections;
+  for (const Study& study : studies) {
+    StudyDone done = run_study(o, all, study, timings, staging);
+    append(warnings, done.warnings);
+    sections.push_back(std::move(done.section));
+  }
+  take(write_report(staging.path("report.html"),
+                    make_report(loaded, all_inputs(o), all.title, o.time.times.zone, all.software,
+                                o.attribution, std::move(sections), warnings)));
   staging.publish();
   for (const Study& study : studies) remove_other_kind(staging, study.folder);
 

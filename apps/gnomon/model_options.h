@@ -16,10 +16,12 @@ struct ModelOptions {
   LoadOptions load;
 };
 
-// Adds MODEL... (required) and, in the group "Model", --lod --up --unit --north --crs --site --ground
-// --cast --no-cast --receive, and groups for footprints and surface models. --up --unit --north --crs
-// --site take [FILE=]VALUE, for one file or for all, and may be repeated; so may the last three, which
-// take one pattern each. `options` must outlive the parsing.
+// Adds MODEL... (required) and, in the group "Model", --lod --up --unit --north --crs --site
+// --ground
+// --cast --no-cast --receive, and groups for footprints and surface models. --up --unit --north
+// --crs
+// --site take [FILE=]VALUE, for one file or for all, and may be repeated; so may the last three,
+// which take one pattern each. `options` must outlive the parsing.
 void add_model_options(CLI::App& command, ModelOptions& options);
 
 // Names of the models for a picture's title: "vienna, towers" for vienna.city.json and towers.obj.

@@ -33,6 +33,12 @@ Json sample_json(const TimeSample& s) {
 
 Json text_or_null(const std::string& text) { return text.empty() ? Json() : Json(text); }
 
+Json site_json(const Site& site) {
+  return {{"latitude_deg", degrees(site.place.latitude)},
+          {"longitude_deg", degrees(site.place.longitude)},
+          {"height_m", site.on_ground ? Json() : Json(site.place.height)}};
+}
+
 Json model_inputs_json(const ModelOptions& options) {
   const LoadOptions& l = options.load;
   Json models = Json::array();
@@ -47,11 +53,27 @@ Json model_inputs_json(const ModelOptions& options) {
            {"ground", l.ground},
            {"cast", l.cast},
            {"no_cast", l.no_cast},
-           {"receive", l.receive}};
+           {"receive", l.receive},
+           {"surface", l.surface == RasterMesh::cells ? "cells" : "triangles"},
+           {"above_ground", l.above_ground},
+           {"footprints",
+            {{"layer", text_or_null(l.footprints.layer)},
+             {"height_attribute", text_or_null(l.footprints.height)},
+             {"floors_attribute", text_or_null(l.footprints.floors)},
+             {"base_attribute", text_or_null(l.footprints.base)},
+             {"floor_height_m", l.footprints.floor_height}}}};
+  Json for_files = Json::array();
+  for (const FileOptions& f : l.for_files) {
+    for_files.push_back({{"file", f.file},
+                         {"up", f.up == 0 ? Json() : Json(std::string(1, f.up))},
+                         {"unit", text_or_null(f.unit)},
+                         {"north_deg", f.north ? Json(degrees(*f.north)) : Json()},
+                         {"crs", text_or_null(f.crs)},
+                         {"site", f.site ? site_json(*f.site) : Json()}});
+  }
+  out["for_files"] = for_files;
   if (l.site) {
-    out["site"] = {{"latitude_deg", degrees(l.site->place.latitude)},
-                   {"longitude_deg", degrees(l.site->place.longitude)},
-                   {"height_m", l.site->place.height}};
+    out["site"] = site_json(*l.site);
   }
   return out;
 }
@@ -63,6 +85,8 @@ Json scene_json(const LoadedScene& loaded) {
     files.push_back({{"path", f.path},
                      {"format", f.format},
                      {"crs", text_or_null(f.crs)},
+                     {"axes", text_or_null(f.axes)},
+                     {"placed", text_or_null(f.placed)},
                      {"lods", f.lods},
                      {"lod_used", text_or_null(f.lod_used)},
                      {"objects", f.objects},

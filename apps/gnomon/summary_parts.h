@@ -19,6 +19,8 @@ Json text_or_null(const std::string& text);
 // "inputs": models, --lod, --up ..., as given; a command adds its own options.
 Json model_inputs_json(const ModelOptions& options);
 
+Json site_json(const Site& site);
+
 // "scene": what was read, and where it stands.
 Json scene_json(const LoadedScene& loaded);
 

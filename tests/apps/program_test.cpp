@@ -20,8 +20,8 @@ TEST_F(Program, ProfileWritesItsFilesAndNothingElse) {
     names.push_back(f.path().filename().string());
   std::sort(names.begin(), names.end());
   EXPECT_EQ(names, (std::vector<std::string>{"isolines.geojson", "isolines.gpkg", "objects.csv",
-                                             "plan.png", "profile.tif", "summary.csv",
-                                             "summary.json", "view.png"}));
+                                             "plan.png", "profile.tif", "report.html",
+                                             "summary.csv", "summary.json", "view.png"}));
 }
 
 TEST_F(Program, SummaryTellsMidpointsWithDirectionsTowardsTheSun) {

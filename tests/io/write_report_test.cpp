@@ -71,8 +71,7 @@ Report full(const TestFolder& folder, const std::string& name) {
   s.tables = {{name, {name}, {{name}}, name, {{1, {1, 2, 3}}}}};
   s.pictures = {{folder / "plan.png", name}};
   const Samples samples = study("1h");
-  s.begin = samples.begin;
-  s.end = samples.end;
+  s.sun_days = {{s.title, samples.begin, samples.end, samples.midpoints}};
   s.steps = samples.midpoints;
   r.sections = {s};
   return r;
@@ -214,17 +213,16 @@ TEST(HoursTable, CountsEverySampleOnce) {
   // The last sample has no surface.
   const ReportTable t = hours_table(profile({0, 1, kHour, kHour + 1, 2 * kHour, 5 * kHour / 2, 0},
                                             {1, 1, 1, 1, 1, 1, 0}, 5 * kHour / 2),
-                                    4);
-  ASSERT_EQ(t.rows.size(), 11U);  // "none" and quarters of an hour
+                                    4, kHour / 4);
+  ASSERT_EQ(t.rows.size(), 10U);  // quarters of an hour
   double all = 0;
   for (const ReportBar& bar : t.bars) all += bar.length;
   EXPECT_EQ(all, 6);
-  EXPECT_EQ(t.rows[0], (std::vector<std::string>{"none", "4.00", "16.7 %"}));
-  EXPECT_EQ(t.rows[1][0], "over 0 to 0.25 h");
-  EXPECT_EQ(t.bars[4].length, 1);  // exactly one hour belongs to (0.75, 1]
-  EXPECT_EQ(t.bars[5].length, 1);  // a millisecond more does not
-  EXPECT_EQ(t.rows[10][0], "over 2.25 to 2.5 h");
-  EXPECT_EQ(t.bars[10].length, 1);
+  EXPECT_EQ(t.rows[0], (std::vector<std::string>{"0 to 0.25 h", "8.00", "33.3 %"}));
+  EXPECT_EQ(t.bars[3].length, 0);
+  EXPECT_EQ(t.bars[4].length, 2);  // exactly one hour belongs to [1, 1.25)
+  EXPECT_EQ(t.rows[9][0], "2.25 to 2.5 h");
+  EXPECT_EQ(t.bars[9].length, 1);  // the last class includes its end
   EXPECT_TRUE(has(t.note, "1 without one"));
 }
 
@@ -233,16 +231,16 @@ TEST(HoursTable, IsPerDayOverSeveralDays) {
   Profile p = profile({3600}, {1}, 14400);
   p.tick_ms = 1000;
   p.days = 2;
-  const ReportTable t = hours_table(p, 1);
-  ASSERT_EQ(t.rows.size(), 9U);
-  EXPECT_EQ(t.rows[2][0], "over 0.25 to 0.5 h");
+  const ReportTable t = hours_table(p, 1, kHour / 4);
+  ASSERT_EQ(t.rows.size(), 8U);
+  EXPECT_EQ(t.rows[2][0], "0.5 to 0.75 h");
   EXPECT_EQ(t.bars[2].length, 1);
   EXPECT_TRUE(has(t.header[0], "per day"));
   EXPECT_EQ(hours_facts(p)[1].second, "30 min (25.0 % of the daylight)");
 }
 
 TEST(HoursTable, HasNoAreaForACamera) {
-  EXPECT_EQ(hours_table(profile({0}, {1}, kHour), 0).header.size(), 2U);
+  EXPECT_EQ(hours_table(profile({0}, {1}, kHour), 0, kHour).header.size(), 2U);
 }
 
 TEST(HoursFacts, GiveMeanLongestAndShares) {

@@ -1,4 +1,5 @@
 #include <gnomon/io/report_tables.h>
+#include <gnomon/profile/hour_classes.h>
 
 #include <fmt/format.h>
 
@@ -29,14 +30,6 @@ std::string share_text(double share) {
   if (share > 0 && share < 0.0005) return "< 0.1 %";
   if (share < 1 && share > 0.9995) return "> 99.9 %";
   return fmt::format("{:.1f} %", 100 * share);
-}
-
-// Steps that divide the daylight into a dozen classes or fewer.
-double class_hours(double hours) {
-  for (const double step : {0.25, 0.5, 1.0, 2.0}) {
-    if (hours <= 12 * step) return step;
-  }
-  return tick_hours(hours);
 }
 
 const char* compass(double azimuth) {
@@ -94,22 +87,14 @@ std::string longitude_text(double radians) {
   return fmt::format("{:.5f}\u00b0 {}", std::abs(radians) / kDegree, radians < 0 ? "W" : "E");
 }
 
-ReportTable hours_table(const Profile& profile, double sample_area) {
-  const double daylight = daylight_hours(profile);
-  const double step = class_hours(daylight);
-  // Of all days together, in milliseconds: whole numbers, so that the classes are exact.
-  const std::uint64_t step_ms = static_cast<std::uint64_t>(std::llround(step * kHour)) *
-                                static_cast<std::uint64_t>(profile.days);
-  const auto steps_in = [&](std::uint32_t ticks) {  // rounded up
-    return (std::uint64_t{ticks} * profile.tick_ms + step_ms - 1) / step_ms;
-  };
-  // counts[0]: no shadow; counts[k]: ((k - 1) steps, k steps]; the last one ends with the daylight.
-  std::vector<std::size_t> counts(1 + steps_in(profile.daylight_ticks));
+ReportTable hours_table(const Profile& profile, double sample_area, std::uint64_t step_ms) {
+  const double daylight = daylight_hours(profile), step = static_cast<double>(step_ms) / kHour;
+  std::vector<std::size_t> counts(classes(profile, step_ms));
   std::size_t samples = 0;
   for (std::size_t k = 0; k < profile.valid.size(); ++k) {
     if (profile.valid[k] == 0) continue;
     ++samples;
-    ++counts[steps_in(profile.shadow_ticks[k])];
+    ++counts[class_of(profile, k, step_ms, counts.size())];
   }
   const double all = static_cast<double>(std::max<std::size_t>(samples, 1));
 
@@ -119,20 +104,19 @@ ReportTable hours_table(const Profile& profile, double sample_area) {
   if (sample_area > 0) table.header.push_back("Area, m\u00b2");
   table.header.push_back("Share");
   for (std::size_t k = 0; k < counts.size(); ++k) {
-    const double from = k == 0 ? 0 : static_cast<double>(k - 1) * step;
-    const double to = std::min(static_cast<double>(k) * step, daylight);
+    const double from = static_cast<double>(k) * step;
+    const double to = k + 1 < counts.size() ? from + step : daylight;
     std::vector<std::string> row;
-    row.push_back(k == 0 ? "none"
-                         : fmt::format("over {} to {} h", hours_label(from),
-                                       hours_label(std::round(100 * to) / 100)));
+    row.push_back(
+        fmt::format("{} to {} h", hours_label(from), hours_label(std::round(100 * to) / 100)));
     const double count = static_cast<double>(counts[k]);
     if (sample_area > 0) row.push_back(area_text(count * sample_area));
     row.push_back(share_text(count / all));
     table.rows.push_back(std::move(row));
-    const double middle = k == 0 ? 0 : (from + to) / 2;
-    table.bars.push_back({count, hours_colour(daylight > 0 ? middle / daylight : 0)});
+    table.bars.push_back({count, hours_colour(daylight > 0 ? (from + to) / 2 / daylight : 0)});
   }
-  table.note = fmt::format("{} samples with a surface", samples);
+  table.note =
+      fmt::format("Each class begins with its lower hours. {} samples with a surface", samples);
   if (sample_area > 0) {
     table.note += fmt::format(", {} m\u00b2 each, as seen from above: {} m\u00b2",
                               fmt::format("{:.4g}", sample_area),
@@ -141,6 +125,35 @@ ReportTable hours_table(const Profile& profile, double sample_area) {
   const std::size_t empty = profile.valid.size() - samples;
   table.note += empty == 0 ? "; there is none without."
                            : fmt::format("; {} without one are not counted.", empty);
+  return table;
+}
+
+ReportTable objects_table(const Profile& profile, double sample_area,
+                          const std::vector<ObjectHours>& objects) {
+  // Rows that a reader looks through; the file has all.
+  constexpr std::size_t kMostRows = 30;
+  const double ms_per_tick = static_cast<double>(profile.tick_ms) / profile.days;
+  std::vector<const ObjectHours*> order;
+  for (std::size_t k = 1; k < objects.size(); ++k) order.push_back(&objects[k]);
+  const auto mean = [](const ObjectHours& o) {
+    return static_cast<double>(o.ticks) / static_cast<double>(o.samples);
+  };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](const ObjectHours* a, const ObjectHours* b) { return mean(*a) > mean(*b); });
+  ReportTable table;
+  table.title = "Receiving objects, longest in shadow first";
+  table.header = {"Object", "Area, m\u00b2", "Least", "Mean", "Longest"};
+  for (const ObjectHours* o : order) {
+    if (table.rows.size() == kMostRows) break;
+    table.rows.push_back({o->object, area_text(static_cast<double>(o->samples) * sample_area),
+                          duration_text(o->least * ms_per_tick),
+                          duration_text(mean(*o) * ms_per_tick),
+                          duration_text(o->most * ms_per_tick)});
+  }
+  table.note = order.size() > kMostRows
+                   ? fmt::format("The first {} of {} objects; all are in objects.csv.", kMostRows,
+                                 order.size())
+                   : "The same figures are in objects.csv.";
   return table;
 }
 

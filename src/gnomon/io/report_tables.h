@@ -2,21 +2,27 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include <gnomon/io/load_scene.h>
 #include <gnomon/io/write_report.h>
+#include <gnomon/io/write_summary_csv.h>
 #include <gnomon/profile/profile.h>
 
 namespace gnomon {
 
-// How many samples are in shadow for how long, as a bar chart: a class for no shadow at all and
-// classes (a, b] of whole hours (or the fractions and multiples of tick_hours) up to the daylight
-// of the window. `sample_area`: square metres of ground that a sample of a plan stands for; 0 where
-// it has no such area (cameras): shares alone. Samples without a surface are not counted; the note
-// says how many. Precondition: the profile's vectors have width * height elements.
-ReportTable hours_table(const Profile& profile, double sample_area);
+// How many samples are in shadow for how long, as a bar chart: the classes of hour_classes.h, those
+// of summary.csv. `sample_area`: square metres of ground that a sample of a plan stands for; 0
+// where it has no such area (cameras): shares alone. Samples without a surface are not counted; the
+// note says how many. Preconditions: the profile's vectors have width * height elements; step_ms >
+// 0.
+ReportTable hours_table(const Profile& profile, double sample_area, std::uint64_t step_ms);
+
+// The objects of hours_by_object(), those longest in shadow first, thirty at most.
+ReportTable objects_table(const Profile& profile, double sample_area,
+                          const std::vector<ObjectHours>& objects);
 
 // "Mean time in shadow", "Longest", ...: the key figures beside it, in hours and minutes.
 ReportFacts hours_facts(const Profile& profile);

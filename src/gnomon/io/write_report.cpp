@@ -114,13 +114,9 @@ std::optional<Error> add_picture(std::string& out, const ReportPicture& picture)
 }
 
 std::optional<Error> add_sun(std::string& out, const Report& report, const ReportSection& section) {
-  if (section.begin < section.end) {
+  if (!section.sun_days.empty()) {
     const Result<std::string> svg =
-        sun_path_svg({report.place,
-                      report.true_north,
-                      report.zone,
-                      report.air,
-                      {{section.title, section.begin, section.end, section.steps}}});
+        sun_path_svg({report.place, report.true_north, report.zone, report.air, section.sun_days});
     if (!svg) return svg.error();
     out += fmt::format(
         "<h3>Sun path</h3>\n<figure class=\"sun\">\n{}<figcaption>Sun-path diagram, equidistant: "

@@ -18,6 +18,7 @@
 #include <gnomon/core/warnings.h>
 #include <gnomon/io/atomic_file.h>
 #include <gnomon/io/picture.h>
+#include <gnomon/io/sun_path.h>
 #include <gnomon/profile/study_times.h>
 #include <gnomon/sun/sun.h>
 
@@ -57,8 +58,8 @@ struct ReportSection {
   ReportFacts results;              // key results: mean, longest, ...
   std::vector<ReportTable> tables;  // hours_table() first, see report_tables.h
   std::vector<ReportPicture> pictures;
-  Instant begin, end;             // the window; equal: no sun-path diagram
-  std::vector<TimeSample> steps;  // midpoints of the steps; empty: no table of them
+  std::vector<SunPathDay> sun_days;  // of the sun-path diagram; none: no diagram
+  std::vector<TimeSample> steps;     // midpoints of the steps; empty: no table of them
 };
 
 struct Report {

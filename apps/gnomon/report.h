@@ -1,0 +1,40 @@
+// report.html of `gnomon profile`: what a run knows, gathered for io/write_report.h.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gnomon/io/write_report.h>
+#include <gnomon/io/write_summary_csv.h>
+#include <gnomon/profile/profile.h>
+#include <gnomon/profile/study_times.h>
+
+#include "model_options.h"
+#include "summary_parts.h"
+
+namespace gnomon::app {
+
+// One --date: what its section shows.
+struct StudyResults {
+  const StudyTimes& times;
+  const Samples& samples;
+  const Profile& profile;
+  std::string window, steps;         // study_text.h
+  double sample_area = 0;            // square metres; 0 for a camera
+  std::uint64_t step_ms = 0;         // between classes of hours
+  std::vector<ObjectHours> objects;  // empty for a camera
+  std::filesystem::path map, view;   // pictures
+  int overlaid = 0;                  // shadows in `view`
+};
+
+// Of a range, the sun path and the steps of its first, middle and last date.
+ReportSection report_section(const StudyResults& results);
+
+// `inputs`: "inputs" of summary.json; what is not null becomes a line each.
+Report make_report(const LoadedScene& loaded, const Json& inputs, const std::string& title,
+                   const std::string& zone, const std::string& software,
+                   const std::string& attribution, std::vector<ReportSection> sections,
+                   const Warnings& warnings);
+
+}  // namespace gnomon::app
