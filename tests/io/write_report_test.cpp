@@ -265,7 +265,7 @@ TEST(StepsTable, ThinsLongTablesAndSaysSo) {
   const ReportTable minutes =
       steps_table(study("1min").midpoints, "Europe/Vienna", kVienna).value();
   EXPECT_EQ(minutes.rows.size(), 480U);
-  EXPECT_EQ(minutes.print_every, 10U);
+  EXPECT_EQ(minutes.print_every, 11U);
   EXPECT_TRUE(has(minutes.note, "On paper"));
   const ReportTable seconds = steps_table(study("1s").midpoints, "Europe/Vienna", kVienna).value();
   EXPECT_LE(seconds.rows.size(), 2000U);

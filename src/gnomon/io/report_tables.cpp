@@ -14,7 +14,7 @@
 namespace gnomon {
 namespace {
 
-constexpr std::size_t kMostPrinted = 50;  // rows: a page of A4
+constexpr std::size_t kMostPrinted = 45;  // rows: a page of A4 and what is left below the sun path
 constexpr std::size_t kMostRows = 2000;   // some 250 kB of HTML
 
 constexpr double kHour = 3.6e6;  // milliseconds

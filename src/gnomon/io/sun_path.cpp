@@ -213,7 +213,10 @@ Result<std::vector<HourMark>> hour_marks(const SunPath& path, Instant begin, Ins
     if (!at) return at.error();
     if (at.value().skipped || at.value().utc < begin || at.value().utc >= end) continue;
     const auto since = clock - std::chrono::floor<std::chrono::days>(clock);
-    marks.push_back({at.value().utc, static_cast<int>(since / hours(1))});
+    const int hour = static_cast<int>(since / hours(1));
+    // A solar day may be shorter than 24 h: its midnight then comes at both ends of the arc.
+    if (!marks.empty() && marks.front().hour == hour) continue;
+    marks.push_back({at.value().utc, hour});
   }
   return marks;
 }
