@@ -1,3 +1,4 @@
+#include <gnomon/core/utf8.h>
 #include <gnomon/io/html.h>
 
 #include <fmt/format.h>
@@ -11,47 +12,6 @@ namespace gnomon {
 namespace {
 
 constexpr std::string_view kReplacement = "\xEF\xBF\xBD";  // U+FFFD
-
-struct Character {
-  char32_t code = 0;
-  std::size_t bytes = 1;  // consumed
-  bool valid = false;
-};
-
-// The character at the front of `text`. What is not UTF-8 is consumed as Unicode recommends: the
-// longest beginning of a valid sequence counts as one error (The Unicode Standard, section 3.9).
-Character next_character(std::string_view text) {
-  const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[k]); };
-  const unsigned char lead = byte(0);
-  if (lead < 0x80) return {lead, 1, true};
-  std::size_t length = 0;
-  char32_t code = 0;
-  if (lead >= 0xC2 && lead <= 0xDF) {
-    length = 2;
-    code = lead & 0x1FU;
-  } else if (lead >= 0xE0 && lead <= 0xEF) {
-    length = 3;
-    code = lead & 0x0FU;
-  } else if (lead >= 0xF0 && lead <= 0xF4) {
-    length = 4;
-    code = lead & 0x07U;
-  } else {
-    return {0, 1, false};
-  }
-  for (std::size_t k = 1; k < length; ++k) {
-    // The second byte's range keeps out overlong forms, surrogates and what is beyond U+10FFFF.
-    unsigned char low = 0x80, high = 0xBF;
-    if (k == 1) {
-      if (lead == 0xE0) low = 0xA0;
-      if (lead == 0xED) high = 0x9F;
-      if (lead == 0xF0) low = 0x90;
-      if (lead == 0xF4) high = 0x8F;
-    }
-    if (k >= text.size() || byte(k) < low || byte(k) > high) return {0, k, false};
-    code = (code << 6) | (byte(k) & 0x3FU);
-  }
-  return {code, length, true};
-}
 
 // Characters whose presence in a page is an error (HTML, "Preprocessing the input stream").
 bool forbidden(char32_t c) {
@@ -83,7 +43,7 @@ std::string html_text(std::string_view text) {
   std::string out;
   out.reserve(text.size());
   while (!text.empty()) {
-    const Character c = next_character(text);
+    const Utf8Character c = next_character(text);
     if (!c.valid || forbidden(c.code)) {
       out += kReplacement;
     } else if (c.code == '&') {

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <gnomon/core/utf8.h>
 #include <gnomon/io/read_text.h>
 
 #include <algorithm>
@@ -70,11 +71,15 @@ std::size_t line_of(std::string_view text, std::size_t offset) {
 
 std::string in_quotes(std::string_view text, std::size_t most) {
   std::string out = "\"";
-  for (const char c : text.substr(0, most)) {
-    const auto byte = static_cast<unsigned char>(c);
-    out += byte < 0x20 || byte >= 0x7f ? '?' : c;
+  std::size_t at = 0;
+  while (at < text.size()) {
+    const Utf8Character c = next_character(text.substr(at));
+    if (at + c.bytes > most) break;
+    const bool control = c.code < 0x20 || (c.code >= 0x7f && c.code < 0xa0);
+    out += c.valid && !control ? text.substr(at, c.bytes) : std::string_view("?");
+    at += c.bytes;
   }
-  if (text.size() > most) out += "...";
+  if (at < text.size()) out += "...";
   return out + "\"";
 }
 
