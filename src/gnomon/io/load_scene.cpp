@@ -82,6 +82,13 @@ bool agree(const std::string& a, const std::string& b, const Vec3& at) {
          in_a.value().place.longitude == in_b.value().place.longitude;
 }
 
+bool is_triangle(const Model& m, const ModelPolygon& p) {
+  const std::uint32_t first = m.ring_begin[p.first_ring];
+  if (p.last_ring - p.first_ring != 1 || m.ring_begin[p.last_ring] - first != 3) return false;
+  const std::uint32_t* c = m.corners.data() + first;
+  return c[0] != c[1] && c[1] != c[2] && c[2] != c[0];
+}
+
 // Appends the model's triangles to the scene.
 void add_model(Scene& scene, Model& m) {
   TriMesh& mesh = scene.mesh;
@@ -95,6 +102,13 @@ void add_model(Scene& scene, Model& m) {
 
   std::vector<std::vector<std::uint32_t>> rings;
   for (const ModelPolygon& p : m.polygons) {
+    if (is_triangle(m, p)) {  // as triangulate() has it; surface models have millions of them
+      const std::uint32_t* c = m.corners.data() + m.ring_begin[p.first_ring];
+      mesh.triangles.push_back({first_vertex + c[0], first_vertex + c[1], first_vertex + c[2]});
+      scene.surface_of.push_back(first_surface + p.surface);
+      ++m.report.triangles;
+      continue;
+    }
     rings.clear();
     for (std::uint32_t r = p.first_ring; r < p.last_ring; ++r) {
       auto& ring = rings.emplace_back();
