@@ -4,11 +4,13 @@
 #include <memory>
 
 #include <fmt/format.h>
+#include <gnomon/io/atomic_file.h>
 #include <gnomon/io/write_gltf.h>
 #include <gnomon/io/write_obj.h>
 
 #include "commands.h"
 #include "model_options.h"
+#include "signals.h"
 
 namespace gnomon::app {
 namespace {
@@ -53,6 +55,10 @@ void run(const Options& o) {
   std::size_t objects = 0;
   double rounding = 0;
   const std::string extension = lower_extension(o.output);
+  const std::filesystem::path output = o.output;
+  set_unfinished({{temporary_of(output),
+                   temporary_of(std::filesystem::path(output).replace_extension(".mtl"))},
+                  {}});
   if (extension == ".obj") {
     const ObjWritten written = take(write_obj(o.output, scene, software));
     files = {written.obj, written.mtl};
@@ -72,6 +78,7 @@ void run(const Options& o) {
            fmt::format("by up to {:.3g} m", rounding));
     }
   }
+  note_published();
   if (o.common.quiet) return;
   print_warnings(warnings);
   const Frame& f = scene.frame;

@@ -62,14 +62,12 @@ class Stopwatch {
 };
 
 // What an earlier run of another kind of view may have left would belong to other results.
-void remove_other_kind(const Staging& staging, const std::string& folder) {
+void remove_other_kind(Staging& staging, const std::string& folder) {
   for (const char* result : {"plan.png", "hours.png", "isolines.geojson", "isolines.gpkg",
                              "summary.csv", "objects.csv"}) {
     const auto& names = staging.names();
     const std::string name = folder + result;
-    std::error_code ignored;
-    if (std::find(names.begin(), names.end(), name) == names.end())
-      std::filesystem::remove(staging.output() / name, ignored);
+    if (std::find(names.begin(), names.end(), name) == names.end()) staging.obsolete(name);
   }
 }
 
@@ -365,8 +363,8 @@ void run(const Options& o) {
   take(write_report(staging.path("report.html"),
                     make_report(loaded, all_inputs(o), all.title, o.time.times.zone, all.software,
                                 o.attribution, std::move(sections), warnings)));
-  staging.publish();
   for (const Study& study : studies) remove_other_kind(staging, study.folder);
+  staging.publish();
 
   if (o.common.quiet) return;
   print_warnings(warnings);

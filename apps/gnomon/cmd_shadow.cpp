@@ -127,12 +127,10 @@ void write_camera_picture(const std::filesystem::path& path, const Options& o, c
 }
 
 // The outlines of an earlier plan would belong to another shadow.
-void remove_old_outlines(const Staging& staging) {
+void remove_old_outlines(Staging& staging) {
   for (const char* name : {"outlines.geojson", "outlines.gpkg"}) {
     const auto& names = staging.names();
-    std::error_code ignored;
-    if (std::find(names.begin(), names.end(), name) == names.end())
-      std::filesystem::remove(staging.output() / name, ignored);
+    if (std::find(names.begin(), names.end(), name) == names.end()) staging.obsolete(name);
   }
 }
 
@@ -236,8 +234,8 @@ void run(const Options& o) {
   // File names need not be UTF-8; JSON must be.
   take(write_text_file(summary_path,
                        json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"));
-  staging.publish();
   remove_old_outlines(staging);
+  staging.publish();
 
   if (o.common.quiet) return;
   print_warnings(warnings);

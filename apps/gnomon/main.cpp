@@ -1,8 +1,16 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <gnomon/core/nearest_names.h>
 
 #include "commands.h"
+#include "signals.h"
+#include "staging.h"
 
 namespace gnomon::app {
 
@@ -24,6 +32,36 @@ void print_warnings(const Warnings& warnings) {
   }
 }
 
+namespace {
+
+// ". Did you mean --date?" for the first thing on the command line that is no option or command.
+std::string did_you_mean(const CLI::App& app) {
+  const std::vector<CLI::App*> chosen = app.get_subcommands();
+  std::set<std::string> names;
+  std::string wanted;
+  for (const std::string& word : app.remaining(true)) {
+    const bool option = word.starts_with("--");
+    if (option != !chosen.empty()) continue;
+    wanted = word.substr(0, word.find('='));
+    break;
+  }
+  if (wanted.empty()) return "";
+  if (chosen.empty()) {
+    for (const CLI::App* c : app.get_subcommands([](const CLI::App*) { return true; }))
+      names.insert(c->get_name());
+  } else {
+    for (const CLI::Option* o : chosen.front()->get_options()) {
+      for (const std::string& name : o->get_lnames()) names.insert("--" + name);
+    }
+  }
+  const std::set<std::string_view> views(names.begin(), names.end());
+  const std::string near = nearest_names(wanted, views, 1);
+  if (near.empty()) return "";
+  return (chosen.empty() ? ": there is no '" + wanted + "'" : std::string()) + ". Did you mean " +
+         near.substr(1, near.size() - 2) + "?";
+}
+
+}  // namespace
 }  // namespace gnomon::app
 
 int main(int argc, char** argv) {
@@ -39,6 +77,7 @@ int main(int argc, char** argv) {
 #ifdef GNOMON_HAVE_TRACE
   gnomon::app::add_verify(app);
 #endif
+  gnomon::app::stop_on_signals();
   std::signal(SIGXFSZ, SIG_IGN);  // a file size limit is then an error of the write, with a message
   try {
     app.parse(argc, argv);
@@ -46,11 +85,12 @@ int main(int argc, char** argv) {
     if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
     std::fprintf(
         stderr,
-        "gnomon: error: %s\nRun gnomon --help, or gnomon COMMAND --help, for what there is.\n",
-        e.what());
+        "gnomon: error: %s%s\nRun gnomon --help, or gnomon COMMAND --help, for what there is.\n",
+        e.what(), gnomon::app::did_you_mean(app).c_str());
     return 2;
   } catch (const std::exception& e) {
-    std::fprintf(stderr, "gnomon: error: %s\n", e.what());
+    const gnomon::app::SignalsWait wait;  // a program that is being stopped says so, and no more
+    std::fprintf(stderr, "gnomon: error: %s\n", gnomon::app::as_published(e.what()).c_str());
     return 1;
   }
   return 0;

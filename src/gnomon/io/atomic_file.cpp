@@ -58,6 +58,12 @@ Error file_error(std::string_view action, const fs::path& path, int errno_value)
                       std::generic_category().message(errno_value), what_to_do(errno_value))};
 }
 
+fs::path temporary_of(const fs::path& target) {
+  fs::path temporary = target;
+  temporary += fmt::format(".tmp-{}", ::getpid());
+  return temporary;
+}
+
 AtomicFile::AtomicFile(fs::path target, fs::path temporary)
     : target_(std::move(target)), temporary_(std::move(temporary)) {}
 
@@ -87,8 +93,7 @@ Result<AtomicFile> AtomicFile::create(const fs::path& target) {
   if (!target.has_filename() || fs::is_directory(target, ignored)) {
     return file_error("write", target, EISDIR);
   }
-  fs::path temporary = target;
-  temporary += fmt::format(".tmp-{}", ::getpid());
+  fs::path temporary = temporary_of(target);
   if (const int failure = write_all(temporary, {}); failure != 0) {
     return file_error("write", target, failure);
   }

@@ -45,6 +45,9 @@ class AtomicFile {
   std::filesystem::path temporary_;  // empty: nothing to remove
 };
 
+// The name of the temporary that create() makes for a target.
+std::filesystem::path temporary_of(const std::filesystem::path& target);
+
 // Makes the folder and those above it where missing, and makes sure that files can be created in
 // it. Returns the path as given. Errors: something in the way that is not a folder, no permission,
 // read-only or full disk.

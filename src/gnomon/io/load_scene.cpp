@@ -133,22 +133,32 @@ void add_model(Scene& scene, Model& m) {
   append(scene.warnings, m.warnings);
 }
 
+std::string element_of(const Scene& scene, std::uint32_t surface) {
+  const Surface& s = scene.surfaces[surface];
+  return !s.object.empty()  ? fmt::format("object {}", in_quotes(s.object, 200))
+         : !s.group.empty() ? fmt::format("group {}", in_quotes(s.group, 200))
+                            : std::string();
+}
+
 // Welds, and warns of what went.
 std::size_t weld_scene(Scene& scene) {
   const std::vector<std::uint32_t> before = scene.surface_of;
   const WeldReport report = weld(scene.mesh, scene.surface_of);
-  const auto element = [&](std::size_t triangle) {
-    const Surface& s = scene.surfaces[before[triangle]];
-    return !s.object.empty()  ? fmt::format("object {}", in_quotes(s.object, 200))
-           : !s.group.empty() ? fmt::format("group {}", in_quotes(s.group, 200))
-                              : std::string();
-  };
   warn(scene.warnings, "Triangles without area were dropped.",
-       report.zero_area_triangles ? element(report.first_zero_area) : std::string(),
+       report.zero_area_triangles ? element_of(scene, before[report.first_zero_area])
+                                  : std::string(),
        report.zero_area_triangles);
   warn(scene.warnings, "Coordinates smaller than an atom were set to 0.", "",
        report.snapped_coordinates);
   return report.zero_area_triangles;
+}
+
+void warn_of_coincident(Scene& scene) {
+  const Coincident found = find_coincident(scene.mesh);
+  if (found.triangles == 0) return;
+  warn(scene.warnings,
+       "Triangles lie exactly on others; all were kept: each casts, and none shades another.",
+       element_of(scene, scene.surface_of[found.first]), found.triangles);
 }
 
 Bounds2 ground_extent(const Scene& scene, const LoadOptions& options) {
@@ -472,6 +482,7 @@ Result<LoadedScene> load_scene(const std::vector<std::filesystem::path>& paths,
     }
   }
   if (loaded.ground.triangles > 0) loaded.zero_area_triangles += weld_scene(scene);
+  warn_of_coincident(scene);
 
   const Selection selection{options.cast, options.no_cast, options.receive};
   if (auto error = select(scene, selection)) return *error;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <numeric>
+#include <tuple>
 
 #include <gnomon/core/exact.h>
 
@@ -71,6 +73,22 @@ WeldReport weld(TriMesh& mesh, std::vector<std::uint32_t>& per_triangle) {
   kept.shrink_to_fit();
   mesh.positions = std::move(kept);
   return report;
+}
+
+Coincident find_coincident(const TriMesh& mesh) {
+  std::vector<Triangle> corners = mesh.triangles;  // in ascending order each
+  for (Triangle& t : corners) std::sort(t.begin(), t.end());
+  std::vector<std::uint32_t> order(corners.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return std::tie(corners[a], a) < std::tie(corners[b], b);
+  });
+  Coincident found;
+  for (std::size_t k = 1; k < order.size(); ++k) {
+    if (corners[order[k]] != corners[order[k - 1]]) continue;
+    if (found.triangles++ == 0 || order[k] < found.first) found.first = order[k];
+  }
+  return found;
 }
 
 }  // namespace gnomon

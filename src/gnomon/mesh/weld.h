@@ -21,4 +21,13 @@ struct WeldReport {
 // kLargestCoordinate (io checks and reports them).
 WeldReport weld(TriMesh& mesh, std::vector<std::uint32_t>& per_triangle);
 
+struct Coincident {
+  std::size_t triangles = 0;  // that have the same three vertices as an earlier one, in any order
+  std::size_t first = 0;      // index of the first of them (if any)
+};
+
+// Triangles of a welded mesh that lie exactly on others. All of them stay: each casts, and none
+// shades another one's samples.
+Coincident find_coincident(const TriMesh& mesh);
+
 }  // namespace gnomon

@@ -4,7 +4,10 @@
 #include <cstdio>
 #include <exception>
 #include <optional>
+#include <set>
+#include <string_view>
 
+#include <gnomon/core/nearest_names.h>
 #include <gnomon/sun/spa.h>
 #include <gnomon/sun/sun.h>
 #include <gnomon/sun/time_zone.h>
@@ -59,9 +62,11 @@ Result<const date::time_zone*> find_zone(const std::string& zone) {
   try {
     return date::locate_zone(zone);
   } catch (const std::exception&) {
-    return Error{
-        "the time zone '" + zone +
-        "' is unknown: give an IANA name such as Europe/Vienna, UTC, or solar (true solar time)"};
+    std::set<std::string_view> names = {"UTC", "solar"};
+    for (const date::time_zone& known : date::get_tzdb().zones) names.insert(known.name());
+    return Error{"the time zone '" + zone + "' is unknown; the nearest are " +
+                 nearest_names(zone, names) +
+                 ": give an IANA name such as Europe/Vienna, UTC, or solar (true solar time)"};
   }
 }
 
