@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <gnomon/core/nearest_names.h>
+#include <gnomon/io/assimp_formats.h>
 #include <gnomon/io/assimp_model.h>
 #include <gnomon/io/cityjson.h>
 #include <gnomon/io/ifc_place.h>
@@ -66,11 +67,24 @@ void tell(SceneFile& file, const FileOptions& more) {
   if (!more.crs.empty()) told.crs = more.crs, file.crs_of_its_own = true;
 }
 
-std::string obj_axes(const FileOptions& told) {
-  return fmt::format(
-      "{} up, unit {}",
-      told.up == 0 ? "y (assumed; --up z if the model lies)" : std::string(1, told.up) + " (--up)",
-      told.unit.empty() ? "m (assumed; --unit says otherwise)" : told.unit + " (--unit)");
+// For people: the up axis and the unit, and who says so.
+std::string axes_of(const FileOptions& told, char usual_up, std::string_view usual_unit) {
+  const char other = usual_up == 'y' ? 'z' : 'y';
+  const std::string up =
+      told.up == 0 ? fmt::format("{} (assumed; --up {} if the model lies)", usual_up, other)
+                   : std::string(1, told.up) + " (--up)";
+  const std::string unit = told.unit.empty()
+                               ? fmt::format("{} (assumed; --unit says otherwise)", usual_unit)
+                               : told.unit + " (--unit)";
+  return fmt::format("{} up, unit {}", up, unit);
+}
+
+std::string mesh_axes(const std::filesystem::path& path, const FileOptions& told) {
+  const MeshFormat* format = mesh_format(path);
+  if (!format || (format->up == UpAxis::kStated && format->unit_stated)) {
+    return "up axis and unit as the file or its format says";
+  }
+  return axes_of(told, format->up == UpAxis::kY ? 'y' : 'z', format->unit == 0.001 ? "mm" : "m");
 }
 
 }  // namespace
@@ -131,22 +145,28 @@ Result<Model> read_model(const SceneFile& file, const LoadOptions& options,
     }
     case FileFormat::footprints:
       return read_footprints(file.path, options.footprints, target_crs, told.crs, ground);
-    case FileFormat::assimp:
-      return read_assimp(file.path, told.up, told.unit.empty() ? 0.0 : unit);
+    case FileFormat::assimp: {
+      auto model = read_assimp(file.path, told.up, told.unit.empty() ? 0.0 : unit);
+      if (model) model.value().report.axes = mesh_axes(file.path, told);
+      return model;
+    }
     case FileFormat::ifc: {
       const auto text = read_text(file.path);
       if (!text) return text.error();
       const auto place = read_ifc_place(text.value(), name);
       if (!place) return place.error();
       auto model = read_assimp(file.path, told.up, told.unit.empty() ? 0.0 : unit);
-      if (model) place_ifc(model.value(), place.value());
+      if (model) {
+        place_ifc(model.value(), place.value());
+        model.value().report.axes = mesh_axes(file.path, told);
+      }
       return model;
     }
     case FileFormat::obj: {
       const auto text = read_text(file.path);
       if (!text) return text.error();
       auto model = read_obj(text.value(), name, told.up != 0 ? told.up : 'y', unit);
-      if (model) model.value().report.axes = obj_axes(told);
+      if (model) model.value().report.axes = axes_of(told, 'y', "m");
       return model;
     }
     case FileFormat::city_json: {
