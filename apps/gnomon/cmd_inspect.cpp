@@ -1,6 +1,7 @@
 // gnomon inspect: what is in the models, and what is wrong with them.
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -56,6 +57,7 @@ struct Inspection {
   std::array<std::size_t, 5> triangles_of_kind{};
   std::vector<std::uint32_t> worst;      // components with faults, most faulty edges first
   std::vector<std::string> worst_names;  // the objects that they belong to
+  double load_ms = 0;                    // milliseconds from the files to the scene
 };
 
 bool is_added_ground(const Scene& scene, const GroundReport& ground, std::uint32_t surface) {
@@ -410,15 +412,19 @@ std::string as_json(const Inspection& in) {
   for (const Warning& w : scene.warnings) {
     json["warnings"].push_back({{"what", w.what}, {"count", w.count}, {"first", w.first}});
   }
+  json["milliseconds"] = {{"load", in.load_ms}};
   json["version"] = GNOMON_VERSION;
   // Names in files need not be UTF-8.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 void run(const Options& options) {
+  const auto start = std::chrono::steady_clock::now();
   auto loaded = load_scene(options.model.models, options.model.load);
   if (!loaded) throw Failure(loaded.error().message);
-  const Inspection in = inspect(std::move(loaded).value());
+  const std::chrono::duration<double, std::milli> load = std::chrono::steady_clock::now() - start;
+  Inspection in = inspect(std::move(loaded).value());
+  in.load_ms = load.count();
   fmt::print("{}", options.json ? as_json(in) : as_text(in));
 }
 

@@ -84,7 +84,9 @@ TEST_F(Program, SeveralDatesHaveAFolderEach) {
       EXPECT_TRUE(fs::exists(fs::path(results()) / folder / file)) << folder << "/" << file;
     }
   }
-  EXPECT_EQ(std::distance(fs::directory_iterator(results()), fs::directory_iterator()), 2);
+  EXPECT_EQ(std::distance(fs::directory_iterator(results()), fs::directory_iterator()), 3)
+      << "a folder each, and one report over both";
+  EXPECT_TRUE(fs::exists(results() + "/report.html"));
   const auto day = nlohmann::json::parse(text(results() + "/2024-03-21/summary.json"));
   EXPECT_EQ(day["result"]["days"], 1);
   EXPECT_EQ(day["result"]["daylight_h"], 3.0);

@@ -67,20 +67,27 @@ void tell(SceneFile& file, const FileOptions& more) {
   if (!more.crs.empty()) told.crs = more.crs, file.crs_of_its_own = true;
 }
 
-// Which way is up in a local format and what its numbers are, and who says so.
-std::string axes_text(const FileOptions& told, char usual, const std::string& unit) {
-  return fmt::format("{} up{}, {}", told.up != 0 ? told.up : usual,
-                     told.up != 0 ? " (--up)" : " (assumed; --up says otherwise)",
-                     !told.unit.empty() ? "unit " + told.unit + " (--unit)"
-                                        : "unit " + unit + " (assumed; --unit says otherwise)");
+// For people: the up axis and the unit, and who says so.
+std::string axes_of(const FileOptions& told, char usual_up, std::string_view usual_unit) {
+  const char other = usual_up == 'y' ? 'z' : 'y';
+  const std::string up =
+      told.up == 0 ? fmt::format("{} (assumed; --up {} if the model lies)", usual_up, other)
+                   : std::string(1, told.up) + " (--up)";
+  const std::string unit = told.unit.empty()
+                               ? fmt::format("{} (assumed; --unit says otherwise)", usual_unit)
+                               : told.unit + " (--unit)";
+  return fmt::format("{} up, unit {}", up, unit);
 }
 
 std::string mesh_axes(const std::filesystem::path& path, const FileOptions& told) {
   const MeshFormat* format = mesh_format(path);
-  if (format == nullptr) return "";
-  if (format->reader == MeshReader::kGltf) return "y up, metres, -z is north (glTF's convention)";
-  if (format->up == UpAxis::kStated) return "axes and unit as the file says";
-  return axes_text(told, format->up == UpAxis::kY ? 'y' : 'z', format->unit == 1.0 ? "m" : "mm");
+  if (format && format->reader == MeshReader::kGltf) {
+    return "y up, metres, -z is north (glTF's convention)";
+  }
+  if (!format || (format->up == UpAxis::kStated && format->unit_stated)) {
+    return "up axis and unit as the file or its format says";
+  }
+  return axes_of(told, format->up == UpAxis::kY ? 'y' : 'z', format->unit == 0.001 ? "mm" : "m");
 }
 
 }  // namespace
@@ -152,16 +159,17 @@ Result<Model> read_model(const SceneFile& file, const LoadOptions& options,
       const auto place = read_ifc_place(text.value(), name);
       if (!place) return place.error();
       auto model = read_assimp(file.path, told.up, told.unit.empty() ? 0.0 : unit);
-      if (!model) return model;
-      place_ifc(model.value(), place.value());
-      model.value().report.axes = mesh_axes(file.path, told);
+      if (model) {
+        place_ifc(model.value(), place.value());
+        model.value().report.axes = mesh_axes(file.path, told);
+      }
       return model;
     }
     case FileFormat::obj: {
       const auto text = read_text(file.path);
       if (!text) return text.error();
       auto model = read_obj(text.value(), name, told.up != 0 ? told.up : 'y', unit);
-      if (model) model.value().report.axes = axes_text(told, 'y', "m");
+      if (model) model.value().report.axes = axes_of(told, 'y', "m");
       return model;
     }
     case FileFormat::city_json: {
