@@ -41,6 +41,17 @@ TEST(Weld, MinusZeroIsZeroAndSpecksBelowTheSmallestCoordinateAreCounted) {
   EXPECT_EQ(m.triangles[0][0], m.triangles[1][0]);
 }
 
+TEST(Weld, TrianglesWithTheSameCornersInAnyOrderAreCounted) {
+  TriMesh m;
+  m.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  m.triangles = {{0, 1, 2}, {0, 1, 3}, {1, 2, 0}, {3, 1, 0}, {0, 1, 2}, {1, 2, 3}};
+  const Coincident found = find_coincident(m);
+  EXPECT_EQ(found.triangles, 3u);
+  EXPECT_EQ(found.first, 2u);
+  m.triangles.resize(2);
+  EXPECT_EQ(find_coincident(m).triangles, 0u);
+}
+
 TEST(EdgeTable, ClosedBoxHasEighteenEdgesWithTwoOppositeTriangles) {
   TriMesh m;
   test::add_box(m, {0, 0, 0}, {1, 1, 1});
