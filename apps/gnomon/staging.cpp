@@ -30,10 +30,13 @@ void make_folders(const fs::path& folder, std::vector<fs::path>& made) {
   if (::mkdir(folder.c_str(), 0777) == 0) {
     made.push_back(folder);
   } else if (!fs::is_directory(folder, ignored)) {
-    const int reason = errno == EEXIST ? ENOTDIR : errno;
+    const int reason = errno == EEXIST ? ENOTDIR : refused(errno);
     throw Failure(file_error("make the output folder", folder, reason).message);
   }
 }
+
+// Where the folder above is there, "no such file" means that no files can be made (/proc).
+int refused(int reason) { return reason == ENOENT ? EPERM : reason; }
 
 bool is_locked(int descriptor, const fs::path& folder) {
   struct stat here {};
@@ -80,7 +83,7 @@ Staging::Staging(const fs::path& output) : output_(output) {
         // Another run has removed the empty output folder; or a process with this number on another
         // machine is at work.
         if ((reason == ENOENT || reason == EEXIST) && attempt < kAttempts) continue;
-        throw Failure(file_error("write to the output folder", output_, reason).message);
+        throw Failure(file_error("write to the output folder", output_, refused(reason)).message);
       }
     } catch (...) {
       remove_unfinished({{}, made});
