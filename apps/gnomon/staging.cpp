@@ -21,6 +21,9 @@ namespace fs = std::filesystem;
 // Between making a folder and locking it another run may take it for a dead one's.
 constexpr int kAttempts = 100;
 
+// Where the folder above is there, "no such file" means that no files can be made (/proc).
+int refused(int reason) { return reason == ENOENT ? EPERM : reason; }
+
 // Makes the folder and those above it; adds what was made to `made`, the outermost first.
 void make_folders(const fs::path& folder, std::vector<fs::path>& made) {
   std::error_code ignored;
@@ -34,9 +37,6 @@ void make_folders(const fs::path& folder, std::vector<fs::path>& made) {
     throw Failure(file_error("make the output folder", folder, reason).message);
   }
 }
-
-// Where the folder above is there, "no such file" means that no files can be made (/proc).
-int refused(int reason) { return reason == ENOENT ? EPERM : reason; }
 
 bool is_locked(int descriptor, const fs::path& folder) {
   struct stat here {};
