@@ -314,7 +314,8 @@ void run(const Options& o) {
   Scene& scene = loaded.scene;
   if (!scene.frame.place) {
     throw Failure(
-        "where on Earth is the model? Its file names no coordinate reference system: add --crs "
+        o.models.models.front().string() +
+        ": where on Earth is the model? Its file names no coordinate reference system: add --crs "
         "EPSG:..., or --site LAT,LON "
         "(degrees) for a model in local metres");
   }

@@ -21,6 +21,9 @@ namespace fs = std::filesystem;
 // Between making a folder and locking it another run may take it for a dead one's.
 constexpr int kAttempts = 100;
 
+// Where the folder above is there, "no such file" means that no files can be made (/proc).
+int refused(int reason) { return reason == ENOENT ? EPERM : reason; }
+
 // Makes the folder and those above it; adds what was made to `made`, the outermost first.
 void make_folders(const fs::path& folder, std::vector<fs::path>& made) {
   std::error_code ignored;
@@ -30,7 +33,7 @@ void make_folders(const fs::path& folder, std::vector<fs::path>& made) {
   if (::mkdir(folder.c_str(), 0777) == 0) {
     made.push_back(folder);
   } else if (!fs::is_directory(folder, ignored)) {
-    const int reason = errno == EEXIST ? ENOTDIR : errno;
+    const int reason = errno == EEXIST ? ENOTDIR : refused(errno);
     throw Failure(file_error("make the output folder", folder, reason).message);
   }
 }
@@ -80,7 +83,7 @@ Staging::Staging(const fs::path& output) : output_(output) {
         // Another run has removed the empty output folder; or a process with this number on another
         // machine is at work.
         if ((reason == ENOENT || reason == EEXIST) && attempt < kAttempts) continue;
-        throw Failure(file_error("write to the output folder", output_, reason).message);
+        throw Failure(file_error("write to the output folder", output_, refused(reason)).message);
       }
     } catch (...) {
       remove_unfinished({{}, made});

@@ -255,9 +255,9 @@ TEST_F(BadInput, FaultyElementsAreNamed) {
       {"t.city.json", city("NaN"), "", {"JSON"}},
       {"t.city.json", city("1e999"), "", {"1e999"}},
       {"t.city.json", city("1e300"), "", {"Tower", "too large"}},
-      {"t.city.json", city("\"a\""), "", {"vertices"}},
-      {"t.city.json", R"({"type":"CityJSON","version":"2.0"})", "", {"transform"}},
-      {"t.city.json", R"({"type":"Banana"})", "", {"Banana"}},
+      {"t.city.json", city("\"a\""), "", {"Tower", "vertex 0"}},
+      {"t.city.json", R"({"type":"CityJSON","version":"2.0"})", "", {"no surfaces"}},
+      {"t.city.json", R"({"type":"Banana"})", "", {"not CityJSON"}},
       {"t.obj", obj("0", "99"), local, {"99"}},
       {"t.obj", obj("0", "-99"), local, {"-99"}},
       {"t.obj", obj("0", "0"), local, {"0"}},
@@ -268,8 +268,8 @@ TEST_F(BadInput, FaultyElementsAreNamed) {
       {"t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n", local, {"no surfaces"}},
       {"t.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", local, {"area"}},
       {"t.off", off("0", "99"), local, {"99"}},
-      {"t.off", off("nan"), local, {"nan"}},
-      {"t.off", off("inf"), local, {"inf"}},
+      {"t.off", off("nan"), local, {"line 7", "vertex 0", "not finite"}},
+      {"t.off", off("inf"), local, {"line 7", "vertex 0", "not finite"}},
       {"t.off", "OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n", local, {"no surfaces"}},
       {"t.ply", ply("0", "99"), local, {"99"}},
       {"t.ply", ply("nan"), local, {"nan"}},
@@ -290,14 +290,14 @@ TEST_F(BadInput, FaultyElementsAreNamed) {
       {"t.glb", glb(0, 99), "--site 48,16", {"99"}},
       {"t.glb", glb(kNan), "--site 48,16", {"nan"}},
       {"t.glb", glb(kInf), "--site 48,16", {"inf"}},
-      {"t.geojson", geojson("NaN"), "", {}},
-      {"t.geojson", geojson("1e999"), "", {}},
-      {"t.geojson", geojson("\"a\""), "", {}},
-      {"t.geojson", geojson("16.3", "Point"), "", {}},
-      {"t.geojson", R"({"type":"FeatureCollection","features":[]})", "", {}},
-      {"t.geojson", R"({"type":"FeatureCollection","features":[)", "", {}},
-      {"t.tif", geotiff(kNan, kNan), "--crs EPSG:31256", {}},
-      {"t.tif", geotiff(kInf, kInf), "--crs EPSG:31256", {}},
+      {"t.geojson", geojson("NaN"), "", {"not finite"}},
+      {"t.geojson", geojson("1e999"), "", {"not finite"}},
+      {"t.geojson", geojson("\"a\""), "", {"feature 0", "whole"}},
+      {"t.geojson", geojson("16.3", "Point"), "", {"polygons"}},
+      {"t.geojson", R"({"type":"FeatureCollection","features":[]})", "", {"no features"}},
+      {"t.geojson", R"({"type":"FeatureCollection","features":[)", "", {"Unterminated"}},
+      {"t.tif", geotiff(kNan, kNan), "--crs EPSG:31256", {"no cell has data"}},
+      {"t.tif", geotiff(kInf, kInf), "--crs EPSG:31256", {"inf", "column 0"}},
   };
   for (const Case& c : cases) {
     SCOPED_TRACE(c.file + (": " + c.content.substr(0, 200)));
@@ -311,7 +311,7 @@ TEST_F(BadInput, NoCrsAndNoSiteIsAnErrorThatSaysWhatToAdd) {
   for (const Format& f : formats()) {
     if (std::string(f.file) == "t.geojson") continue;  // is in degrees by its definition
     const std::string whole = std::string(f.file) == "t.city.json" ? city("0", "3", "") : f.whole;
-    refuses(model_profile(write(f.file, whole), ""), {"--crs"});
+    refuses(model_profile(write(f.file, whole), ""), {f.file, "--crs", "--site"});
   }
 }
 
@@ -346,10 +346,12 @@ TEST_F(BadInput, OutputFoldersThatCannotBeWrittenAreNamed) {
   const std::string model = write("t.city.json", city()), in_the_way = write("file", "kept");
   const std::string args = "profile " + model + " " + day_ + " --pixel 4 -o ";
   // Root may write everywhere, but not into a file, nor where there are no files to be made.
-  for (const std::string& output : {in_the_way, in_the_way + "/below", std::string("/proc/gnomon"),
-                                    std::string("/proc"), std::string(300, 'x')}) {
-    refuses(args + output, {output});
-    refuses("shadow " + model + " --light 1249,340770,200 --pixel 4 -o " + output, {output});
+  for (const std::string& output :
+       {in_the_way, in_the_way + "/below", std::string("/proc/gnomon"), std::string("/proc"),
+        (folder_ / std::string(300, 'x')).string()}) {
+    const std::string named = output.ends_with("/below") ? in_the_way : output;
+    refuses(args + output, {named, "choose a"});
+    refuses("shadow " + model + " --light 1249,340770,200 --pixel 4 -o " + output, {named});
   }
   refuses("convert " + model + " -o " + in_the_way + "/t.obj", {in_the_way, "choose"});
   refuses(args + "''", {"-o"});

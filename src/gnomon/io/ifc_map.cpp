@@ -122,7 +122,8 @@ const StepInstance* property_set(const StepFile& file, std::string_view name, Wa
 // Unit) that has a value.
 template <class Use>
 void each_property(const StepFile& file, const StepInstance& set, Use use) {
-  for (const StepValue& reference : arguments_of(set)[4].items) {
+  const std::vector<StepValue> items = arguments_of(set)[4].items;  // of a temporary
+  for (const StepValue& reference : items) {
     const StepInstance* property = find(file, reference.reference);
     if (!property || !same_keyword(property->keyword, "IFCPROPERTYSINGLEVALUE")) continue;
     const auto a = arguments_of(*property);

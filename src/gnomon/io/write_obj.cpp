@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -154,10 +155,17 @@ Result<ObjWritten> write_obj(const std::filesystem::path& path, const Scene& sce
        "Vertices lie so close together that the coordinates of the CRS do not tell them apart.", "",
        positions.merged);
 
-  Result<FileWritten> mtl = write_text_file(mtl_path, mtl_text(materials, parts));
-  if (!mtl) return mtl.error();
+  // Both or none: the materials are on the disk before the model appears, and appear after it.
+  Result<AtomicFile> mtl_file = AtomicFile::create(mtl_path);
+  if (!mtl_file) return mtl_file.error();
+  std::ofstream mtl_stream(mtl_file.value().temporary(), std::ios::binary);
+  mtl_stream << mtl_text(materials, parts) << std::flush;
+  if (!mtl_stream) return file_error("write", mtl_path, errno != 0 ? errno : EIO);
+  mtl_stream.close();
   Result<FileWritten> obj = write_text_file(path, {out.data(), out.size()});
   if (!obj) return obj.error();
+  Result<FileWritten> mtl = mtl_file.value().commit();
+  if (!mtl) return mtl.error();
   written.mtl = std::move(mtl).value();
   written.obj = std::move(obj).value();
   return written;
