@@ -34,6 +34,18 @@ std::string refusal(const std::string& crs, double x, double y) {
   return r ? "" : r.error().message;
 }
 
+// A GeoJSON (EPSG:4326) and a --site (CRS84) meet in one scene.
+TEST(Crs, BothNamesOfWgs84GiveTheSamePoint) {
+  const Vec2 lonlat(16.3525, 48.2047);
+  const Vec2 a = reproject("EPSG:4326", "EPSG:31256", {lonlat}).value()[0];
+  const Vec2 b = reproject("OGC:CRS84", "EPSG:31256", {lonlat}).value()[0];
+  EXPECT_EQ(a.x, b.x);
+  EXPECT_EQ(a.y, b.y);
+  const CrsPlace back = locate("EPSG:31256", {a.x, a.y, 0}).value();
+  EXPECT_NEAR(back.place.longitude / kDegree, lonlat.x, 2e-8);  // 2 mm, there and back
+  EXPECT_NEAR(back.place.latitude / kDegree, lonlat.y, 2e-8);
+}
+
 TEST(Crs, PlacesTheViennaDistrictInVienna) {
   // The middle of the demo's model: between the Danube canal and the Prater.
   const CrsPlace p = at("EPSG:31256", 1246.8, 340741.2, 30);

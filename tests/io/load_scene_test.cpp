@@ -178,6 +178,17 @@ TEST(LoadScene, ObjNeedsUpAndUnitWhereTheyDiffer) {
   expect_failure({file("t.obj", kObj)}, options, {"--up"});
 }
 
+TEST(LoadScene, MeshFilesSayWhichAxesWereAssumed) {
+  const Files file;
+  const auto off = file("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 0 1\n3 0 1 2\n");
+  LoadOptions options = without_ground();
+  EXPECT_EQ(load({off}, options).files[0].axes,
+            "z (assumed; --up y if the model lies) up, unit m (assumed; --unit says otherwise)");
+  options.up = 'y';
+  options.unit = "mm";
+  EXPECT_EQ(load({off}, options).files[0].axes, "y (--up) up, unit mm (--unit)");
+}
+
 TEST(LoadScene, UpAndUnitOfCityJsonAreNotSilentlyIgnored) {
   const Files file;
   LoadOptions options = without_ground();

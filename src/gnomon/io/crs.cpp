@@ -124,6 +124,9 @@ std::string shown_crs(const std::string& crs) {
 
 Result<PjPtr> parse_crs(PJ_CONTEXT* context, const std::string& crs) {
   std::string definition = short_crs(crs);
+  // The same but for the order of its axes, which is normalized anyway. PROJ lists other datum
+  // shifts to the one than to the other (13 mm apart in Vienna); pieces of a scene need the same.
+  if (definition == "OGC:CRS84") definition = "EPSG:4326";
   // A PROJ string is an operation unless it says that it is a CRS.
   if (definition.find("+proj=") != std::string::npos &&
       definition.find("+type=crs") == std::string::npos) {
@@ -188,7 +191,7 @@ Result<CrsPlace> locate(const std::string& crs, const Vec3& p) {
   }
   result.metres_per_unit = unit;
 
-  const PjPtr wgs84(proj_create(context.get(), "OGC:CRS84"));
+  const PjPtr wgs84(proj_create(context.get(), "EPSG:4326"));
   if (!wgs84) return Error{"PROJ does not know WGS 84: its database proj.db is broken"};
   const PjPtr operation = operation_at(context.get(), horizontal.get(), wgs84.get(), {p.x, p.y});
   if (!operation) {
