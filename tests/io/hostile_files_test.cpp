@@ -10,12 +10,14 @@
 #include <gnomon/io/ifc_map.h>
 #include <gnomon/io/ifc_place.h>
 #include <gnomon/io/read_text.h>
+#include <gnomon/io/triangulate.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include "ifc_test_file.h"
 #include "io/write_test_files.h"
@@ -72,6 +74,20 @@ TEST(HostileCityJson, ATemplateMovedBeyondAllNumbersIsAnError) {
   EXPECT_EQ(model.error().message,
             "t.json: object \"T\", geometry 0: the transformationMatrix moves template vertex 0 "
             "beyond all numbers.");
+}
+
+TEST(HostileCityJson, TheParsersReasonsAreShortAndHaveNoControlCharacters) {
+  const auto model = read_cityjson("{" + std::string(10000, '\x7f'), "t.json", "");
+  ASSERT_FALSE(model);
+  EXPECT_EQ(model.error().message.find('\x7f'), std::string::npos);
+  EXPECT_LT(model.error().message.size(), 500u);
+}
+
+TEST(HostileObj, AFaceThatGoesBackOnItsOwnEdgesIsNotLostSilently) {
+  const std::vector<Vec3> corners = {{0, 0, 0}, {4, 0, 0}, {2, 2, 0}};
+  const Triangulation result = triangulate(corners, {{0, 1, 2, 1, 1}});
+  EXPECT_TRUE(result.triangles.empty());
+  EXPECT_NE(result.problem.find("has no area"), std::string::npos) << result.problem;
 }
 
 TEST(HostileIfc, AMapConversionBeyondAllNumbersIsNotUsed) {

@@ -111,7 +111,7 @@ void add_model(Scene& scene, Model& m) {
     if (result.problem.empty()) continue;
     warn(scene.warnings,
          result.triangles.empty()
-             ? "Polygons of fewer than 3 distinct corners were left out."
+             ? "Polygons of fewer than 3 distinct corners or without an area were left out."
              : "Polygons that are not simple could not be triangulated exactly.",
          fmt::format("{}: {}", name_of(m, p), result.problem));
   }
