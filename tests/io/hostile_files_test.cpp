@@ -9,6 +9,7 @@
 #include <gnomon/io/footprint_layer.h>
 #include <gnomon/io/ifc_map.h>
 #include <gnomon/io/ifc_place.h>
+#include <gnomon/io/ply.h>
 #include <gnomon/io/read_text.h>
 #include <gnomon/io/triangulate.h>
 #include <gtest/gtest.h>
@@ -88,6 +89,18 @@ TEST(HostileObj, AFaceThatGoesBackOnItsOwnEdgesIsNotLostSilently) {
   const Triangulation result = triangulate(corners, {{0, 1, 2, 1, 1}});
   EXPECT_TRUE(result.triangles.empty());
   EXPECT_NE(result.problem.find("has no area"), std::string::npos) << result.problem;
+}
+
+TEST(HostilePly, NamesOfElementsInMessagesHaveNoControlCharacters) {
+  const std::string header =
+      "ply\nformat ascii 1.0\nelement a\x01"
+      "z 2\nproperty int i\nend_header\n";
+  const auto cut_off = read_ply(header + "1\n\n\n", "t.ply", 'z', 1);
+  ASSERT_FALSE(cut_off);
+  EXPECT_EQ(cut_off.error().message, "t.ply: the file ends before a?z 1 of 2; it is cut off.");
+  const auto no_number = read_ply(header + "1\nx\n", "t.ply", 'z', 1);
+  ASSERT_FALSE(no_number);
+  EXPECT_NE(no_number.error().message.find("a?z 1 must have"), std::string::npos);
 }
 
 TEST(HostileIfc, AMapConversionBeyondAllNumbersIsNotUsed) {
