@@ -129,7 +129,14 @@ ViewSamples overlay(const Options& o, const Prepared& all, const Study& study) {
     as_camera.bounds = o.view.bounds;
   }
   const View wide = make_camera(scene, as_camera, all.camera_azimuth, kSupersample);
-  const Receivers seen = visible_surfaces(scene, wide, o.common.threads);
+  // The picture beside a map shows the whole model, also what does not receive (--receive).
+  Scene whole;
+  if (!wants_camera(o.view)) {
+    whole = scene;
+    for (Surface& s : whole.surfaces) s.receives = true;
+  }
+  const Scene& shown = wants_camera(o.view) ? scene : whole;
+  const Receivers seen = visible_surfaces(shown, wide, o.common.threads);
   const std::vector<Light> lights = picture_lights(study.samples);
   const std::vector<std::uint32_t> shaded =
       count_shaded(all.casters, seen, lights,
@@ -144,7 +151,7 @@ ViewSamples overlay(const Options& o, const Prepared& all, const Study& study) {
   std::transform(
       seen.triangle.begin(), seen.triangle.end(), picture.valid.begin(),
       [](std::uint32_t t) { return static_cast<std::uint8_t>(t != kNoTriangle ? 1 : 0); });
-  picture.shading = view_shading(scene, seen, o.common.threads);
+  picture.shading = view_shading(shown, seen, o.common.threads);
   return picture;
 }
 
@@ -380,6 +387,7 @@ void run(const Options& o) {
              scene.mesh.triangles.size(), watch.total() / 1000);
   for (const std::string& name : staging.names())
     fmt::print("  {}\n", (staging.output() / name).string());
+  fmt::print("Open {} in a browser.\n", (staging.output() / "report.html").string());
 }
 
 }  // namespace

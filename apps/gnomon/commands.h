@@ -26,6 +26,9 @@ T take(Result<T> result) {
 // One line each on standard error.
 void print_warnings(const Warnings& warnings);
 
+// Checks an option's value: a number above 0, with a point.
+CLI::Validator positive_number();
+
 // Options that every command has.
 struct Common {
   int threads = 0;     // 0: all

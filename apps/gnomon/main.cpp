@@ -1,3 +1,4 @@
+#include <charconv>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -20,6 +21,17 @@ void add_common(CLI::App& command, Common& common) {
       ->group("General");
   command.add_flag("-q,--quiet", common.quiet, "Print errors only")->group("General");
   command.add_flag("-v,--verbose", common.verbose, "Say more; twice: even more")->group("General");
+}
+
+CLI::Validator positive_number() {
+  return CLI::Validator(
+      [](std::string& text) {
+        double value = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        const bool good = error == std::errc() && end == text.data() + text.size() && value > 0;
+        return good ? std::string() : "'" + text + "' is not a number above 0, such as 0.5";
+      },
+      "NUMBER");
 }
 
 void print_warnings(const Warnings& warnings) {

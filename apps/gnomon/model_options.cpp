@@ -88,7 +88,8 @@ void add_placing(CLI::App& command, LoadOptions& load) {
       [](FileOptions& f, const std::string& v) { f.unit = v; });
   add_per_file(
       command, load, "--north", "DEG",
-      "True north, clockwise from the model's +y (default: from the file or CRS, else 0)",
+      "True north, clockwise from the model's +y: 30 turns the model 30 degrees anticlockwise "
+      "(default: from the file or CRS, else 0)",
       [&load](const std::string& v) { load.north = read_degrees(v) * kDegree; },
       [](FileOptions& f, const std::string& v) { f.north = read_degrees(v) * kDegree; });
   add_per_file(
@@ -119,7 +120,7 @@ void add_footprints(CLI::App& command, FootprintOptions& footprints) {
       ->type_name("NAME")
       ->group(kGroup);
   command.add_option("--floor-height", footprints.floor_height, "Metres per floor")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->capture_default_str()
       ->group(kGroup);
   command

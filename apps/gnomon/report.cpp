@@ -61,7 +61,7 @@ ReportSection report_section(const StudyResults& r) {
   out.results = hours_facts(r.profile);
   out.tables.push_back(hours_table(r.profile, r.sample_area, r.step_ms));
   if (r.objects.size() > 2) {
-    out.tables.push_back(objects_table(r.profile, r.sample_area, r.objects));
+    out.later_tables.push_back(objects_table(r.profile, r.sample_area, r.objects));
   }
   const std::string mean =
       r.profile.days > 1 ? fmt::format(", mean per day over {} days", r.profile.days) : "";

@@ -111,7 +111,7 @@ void add_view_options(CLI::App& command, ViewOptions& o) {
   command
       .add_option("--pixel", o.pixel,
                   "Plan: size of a sample in metres (default: about 2000 samples across)")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->group(group);
   command
       .add_option("--bounds", o.bounds,
@@ -128,7 +128,7 @@ void add_view_options(CLI::App& command, ViewOptions& o) {
       ->capture_default_str()
       ->group(group);
   command.add_option("--ortho", o.ortho_height, "Camera: parallel view, METRES high at the target")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->group(group);
   command.add_option("--size", o.size, "Camera: WIDTHxHEIGHT in pixels")
       ->capture_default_str()

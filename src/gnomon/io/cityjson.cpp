@@ -14,6 +14,8 @@ using cityjson::Json;
 using cityjson::member;
 using cityjson::Reading;
 
+constexpr std::size_t kMostOfReason = 300;  // bytes; the parser quotes the whole string it is in
+
 // The parser's reason without its own prefix and position, which we give ourselves.
 std::string reason_of(const Json::exception& e) {
   std::string what = e.what();
@@ -21,9 +23,10 @@ std::string reason_of(const Json::exception& e) {
     const std::size_t at = what.find(mark);
     if (at == std::string::npos) continue;
     const std::size_t colon = mark == "] " ? at + 1 : what.find(": ", at) + 1;
-    return what.substr(colon + 1);
+    what.erase(0, colon + 1);
+    break;
   }
-  return what;
+  return printable(what, kMostOfReason);
 }
 
 // A JSON document. `first_line`: the line of the file that `text` starts on.

@@ -4,26 +4,40 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <utility>
 
 namespace gnomon::cityjson {
 namespace {
 
-// The ring as a cycle without start and direction: the least of all its readings.
-std::vector<std::uint32_t> cycle_of(const std::vector<std::uint32_t>& ring) {
-  std::size_t n = ring.size();
-  if (n > 1 && ring[n - 1] == ring[0]) --n;  // closed rings are tolerated
-  std::vector<std::uint32_t> best, turned(n);
-  if (n == 0) return best;
-  const std::uint32_t least = *std::min_element(ring.begin(), ring.begin() + static_cast<long>(n));
-  for (std::size_t start = 0; start < n; ++start) {
-    if (ring[start] != least) continue;
-    for (const std::size_t step : {std::size_t{1}, n - 1}) {
-      for (std::size_t k = 0, at = start; k < n; ++k, at = (at + step) % n) turned[k] = ring[at];
-      if (best.empty() || turned < best) best = turned;
+// Where the least of the ring's rotations starts, in linear time: of two candidates, each mismatch
+// throws out all starts that it passed.
+std::size_t least_rotation(const std::vector<std::uint32_t>& ring) {
+  const std::size_t n = ring.size();
+  std::size_t a = 0, b = 1, same = 0;
+  while (a < n && b < n && same < n) {
+    const std::uint32_t of_a = ring[(a + same) % n], of_b = ring[(b + same) % n];
+    if (of_a == of_b) {
+      ++same;
+      continue;
     }
+    (of_a > of_b ? a : b) += same + 1;
+    if (a == b) ++b;
+    same = 0;
   }
-  return best;
+  return std::min(a, b);
+}
+
+// The ring as a cycle without start and direction: the least of all its readings.
+std::vector<std::uint32_t> cycle_of(std::vector<std::uint32_t> ring) {
+  if (ring.size() > 1 && ring.back() == ring.front()) ring.pop_back();  // closed ones are tolerated
+  if (ring.empty()) return ring;
+  std::vector<std::uint32_t> turned(ring.rbegin(), ring.rend());
+  for (auto* r : {&ring, &turned}) {
+    std::rotate(r->begin(), r->begin() + static_cast<std::ptrdiff_t>(least_rotation(*r)), r->end());
+  }
+  return std::min(ring, turned);
 }
 
 // Equal for polygons that are the same up to start, direction and order of the holes.
@@ -58,7 +72,8 @@ struct Vertices {
     if (of_template) return document.reading.template_vertices.size();
     return document.vertices ? document.vertices->size() : 0;
   }
-  // In the model. Precondition: k < size(). False: the document's vertex is not three numbers.
+  // In the model. Precondition: k < size(). False: it is not three finite numbers, as the document
+  // has it or where the template puts it.
   bool at(std::size_t k, std::uint32_t& id) const {
     ModelBuilder& builder = document.reading.builder;
     if (of_template) {
@@ -68,7 +83,9 @@ struct Vertices {
         const double* row = &matrix[static_cast<std::size_t>(4 * r)];
         placed[r] = row[0] * p.x + row[1] * p.y + row[2] * p.z + row[3];
       }
-      id = builder.vertex(anchor + placed / builder.model.scale);
+      const Vec3 raw = anchor + placed / builder.model.scale;
+      if (!std::isfinite(raw.x) || !std::isfinite(raw.y) || !std::isfinite(raw.z)) return false;
+      id = builder.vertex(raw);
       return true;
     }
     std::uint32_t& known = document.vertex_id[k];
@@ -135,6 +152,10 @@ struct Reader {
         }
         std::uint32_t id = 0;
         if (!vertices.at(*k, id)) {
+          if (vertices.of_template) {
+            return fail(fmt::format(
+                "the transformationMatrix moves template vertex {} beyond all numbers.", *k));
+          }
           return fail(fmt::format("vertex {} must be three finite numbers, not {}.", *k,
                                   kind_of(&(*document.vertices)[*k])));
         }

@@ -237,6 +237,9 @@ Result<CrsPlace> locate(const std::string& crs, const Vec3& p) {
 }
 
 std::string short_crs(const std::string& crs) {
+  // std::regex goes as deep into the stack as a text is long; what is longer than this is WKT.
+  constexpr std::size_t kLongestForm = 200;
+  if (crs.size() > kLongestForm) return crs;
   static const std::regex forms(
       R"(\s*(?:https?://www\.opengis\.net/def/crs/epsg/[^/]*/|urn:(?:x-)?ogc:def:crs:epsg:[^:]*:|epsg:)(\d+)/?\s*)",
       std::regex::icase);

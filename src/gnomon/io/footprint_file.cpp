@@ -73,13 +73,15 @@ using Dataset = std::unique_ptr<void, CloseDataset>;
 using Feature = std::unique_ptr<std::remove_pointer_t<OGRFeatureH>, DestroyFeature>;
 using Geometry = std::unique_ptr<std::remove_pointer_t<OGRGeometryH>, DestroyGeometry>;
 
+constexpr std::size_t kMostOfGdal = 500;  // bytes of a message, which may quote the file
+
 // What GDAL said, as a part of a sentence.
 std::string reason_of(const GdalMessages& messages) {
   std::string text = messages.failure            ? *messages.failure
                      : messages.warnings.empty() ? "GDAL gives no reason"
                                                  : messages.warnings.front();
   while (!text.empty() && (text.back() == '.' || text.back() == '\n')) text.pop_back();
-  return text;
+  return printable(text, kMostOfGdal);
 }
 
 Result<Dataset> open(const std::filesystem::path& path, const GdalMessages& messages) {
@@ -302,7 +304,7 @@ std::string lower_case(std::string_view text) {
 std::string listed(const std::vector<std::string>& names, std::size_t most) {
   std::string out;
   for (std::size_t k = 0; k < std::min(most, names.size()); ++k) {
-    out += (out.empty() ? "" : ", ") + names[k];
+    out += (out.empty() ? "" : ", ") + printable(names[k], 200);
   }
   if (names.size() > most) out += fmt::format(", ... ({} more)", names.size() - most);
   return out;
@@ -375,7 +377,7 @@ Result<FootprintFile> read_footprint_file(const std::filesystem::path& path,
   file.attributes.insert(file.attributes.end(), packed_names.begin(), packed_names.end());
   for (const std::string& text : messages.warnings) {
     warn(file.warnings, "GDAL was not content with a file.",
-         fmt::format("{}: {}", path.string(), text));
+         fmt::format("{}: {}", path.string(), printable(text, kMostOfGdal)));
   }
   return file;
 }

@@ -90,8 +90,9 @@ class Reader {
                                 : path_;
   }
   std::string name(const FootprintFeature& f) const {
-    return f.id.empty() ? fmt::format("{}: feature {}", layer(), f.number)
-                        : fmt::format("{}: feature {} (id {})", layer(), f.number, f.id);
+    return f.id.empty()
+               ? fmt::format("{}: feature {}", layer(), f.number)
+               : fmt::format("{}: feature {} (id {})", layer(), f.number, printable(f.id, 200));
   }
   void warning(std::string_view what, const FootprintFeature& f, const std::string& why = {}) {
     warn(builder_.model.warnings, what, why.empty() ? name(f) : name(f) + ": " + why);

@@ -46,10 +46,13 @@ void append_references(const StepValue& value, std::vector<std::uint64_t>& ids) 
   for (const StepValue& item : value.items) append_references(item, ids);
 }
 
-using Edges = std::vector<std::vector<std::uint32_t>>;  // per instance: those that it leads to
+// Per instance: those that it leads to. Behind the instances stand nodes of relations, so that a
+// relation of many with many has not as many edges as pairs.
+using Edges = std::vector<std::vector<std::uint32_t>>;
 
-// An instance on a circle; nothing where there is none.
-std::optional<std::uint32_t> on_circle(const Edges& edges) {
+// An instance on a circle; nothing where there is none. The first `instances` nodes are instances;
+// no edge leads from one of the others to another.
+std::optional<std::uint32_t> on_circle(const Edges& edges, std::size_t instances) {
   enum : char { kNew, kOpen, kDone };
   std::vector<char> state(edges.size(), kNew);
   std::vector<std::pair<std::uint32_t, std::size_t>> path;  // instance, its next edge
@@ -65,7 +68,8 @@ std::optional<std::uint32_t> on_circle(const Edges& edges) {
         continue;
       }
       const std::uint32_t to = edges[at][next++];
-      if (state[to] == kOpen) return to;
+      if (state[to] == kOpen && to < instances) return to;
+      if (state[to] == kOpen) return at;
       if (state[to] == kNew) {
         state[to] = kOpen;
         path.emplace_back(to, 0);
@@ -136,14 +140,13 @@ std::optional<Error> check_ifc(const StepFile& file) {
       std::vector<std::uint64_t> parents, children;
       append_references(arguments[relation.from], parents);
       append_references(arguments[relation.to], children);
-      for (const std::uint64_t parent : parents) {
-        for (const std::uint64_t child : children) {
-          edges[file.index.at(parent)].push_back(file.index.at(child));
-        }
-      }
+      const auto node = static_cast<std::uint32_t>(edges.size());
+      edges.emplace_back();
+      for (const std::uint64_t id : parents) edges[file.index.at(id)].push_back(node);
+      for (const std::uint64_t id : children) edges[node].push_back(file.index.at(id));
     }
   }
-  if (const auto k = on_circle(edges)) {
+  if (const auto k = on_circle(edges, file.instances.size())) {
     const StepInstance& i = file.instances[*k];
     return Error{fmt::format("{}#{} ({}) contains itself; export the model again.", where(file, i),
                              i.id, i.keyword)};

@@ -122,8 +122,8 @@ const StepInstance* property_set(const StepFile& file, std::string_view name, Wa
 // Unit) that has a value.
 template <class Use>
 void each_property(const StepFile& file, const StepInstance& set, Use use) {
-  const std::vector<StepValue> items = arguments_of(set)[4].items;  // of a temporary
-  for (const StepValue& reference : items) {
+  const auto arguments = arguments_of(set);  // by name: a loop does not keep what it is a part of
+  for (const StepValue& reference : arguments[4].items) {
     const StepInstance* property = find(file, reference.reference);
     if (!property || !same_keyword(property->keyword, "IFCPROPERTYSINGLEVALUE")) continue;
     const auto a = arguments_of(*property);
@@ -202,10 +202,13 @@ double map_scale(double written, double map_unit, double project_unit, Warnings&
 }  // namespace
 
 std::string ifc_crs(std::string_view name) {
+  // std::regex goes as deep into the stack as a text is long.
+  constexpr std::size_t kLongestCode = 64;
   static const std::regex code(R"(\s*(?:epsg[\s:_-]*)?(\d{4,6})\s*)", std::regex::icase);
   const std::string own(name);
   std::smatch match;
-  if (std::regex_match(own, match, code)) return "EPSG:" + match[1].str();
+  if (own.size() <= kLongestCode && std::regex_match(own, match, code))
+    return "EPSG:" + match[1].str();
   return short_crs(own);
 }
 
@@ -249,6 +252,11 @@ std::optional<IfcMapConversion> ifc_map_conversion(const StepFile& file, std::ui
   out.eastings = *written->eastings * unit;
   out.northings = *written->northings * unit;
   out.height = written->height.value_or(0) * unit;
+  if (!std::isfinite(out.eastings) || !std::isfinite(out.northings) || !std::isfinite(out.height)) {
+    warn(warnings, "The map conversion moves the model beyond all numbers and was not used.",
+         file.path);
+    return std::nullopt;
+  }
   out.scale = map_scale(written->scale.value_or(1), unit, project_unit, warnings);
 
   const double x = written->abscissa.value_or(written->ordinate ? 0 : 1);

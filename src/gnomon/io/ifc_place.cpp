@@ -145,8 +145,13 @@ std::optional<Place> site_place(const StepFile& file, double metres_per_unit, Wa
     } else if (found) {
       warn(warnings, "There are several sites; the place of the first was taken.", element);
     } else {
-      const bool height = a.size() > 11 && a[11].kind == Kind::kNumber;
-      found = Place{*latitude, *longitude, height ? a[11].number * metres_per_unit : 0};
+      const bool given = a.size() > 11 && a[11].kind == Kind::kNumber;
+      double height = given ? a[11].number * metres_per_unit : 0;
+      if (!std::isfinite(height)) {
+        warn(warnings, "The site's elevation is beyond all numbers; 0 was taken.", element);
+        height = 0;
+      }
+      found = Place{*latitude, *longitude, height};
     }
   }
   return found;

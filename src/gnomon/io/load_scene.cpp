@@ -125,7 +125,7 @@ void add_model(Scene& scene, Model& m) {
     if (result.problem.empty()) continue;
     warn(scene.warnings,
          result.triangles.empty()
-             ? "Polygons of fewer than 3 distinct corners were left out."
+             ? "Polygons of fewer than 3 distinct corners or without an area were left out."
              : "Polygons that are not simple could not be triangulated exactly.",
          fmt::format("{}: {}", name_of(m, p), result.problem));
   }
@@ -236,21 +236,25 @@ struct Builder {
   std::string crs;              // empty: local coordinates
   std::optional<ModelBox> box;  // of what is in it, CRS coordinates
   std::string first;            // the file that came first, for messages
+  bool first_is_placed = true;  // by a CRS or a site
 };
 
-std::optional<Error> check_near(const ModelBox& a, const ModelBox& b, const std::string& path,
-                                const std::string& first) {
-  const double dx = std::max({a.low.x - b.high.x, 0.0, b.low.x - a.high.x});
-  const double dy = std::max({a.low.y - b.high.y, 0.0, b.low.y - a.high.y});
+// `placed`: by a CRS or a site. Of two files that are far apart, one that is not is to blame.
+std::optional<Error> check_near(const Builder& b, const ModelBox& box, const std::string& path,
+                                bool placed) {
+  const double dx = std::max({b.box->low.x - box.high.x, 0.0, box.low.x - b.box->high.x});
+  const double dy = std::max({b.box->low.y - box.high.y, 0.0, box.low.y - b.box->high.y});
   if (std::hypot(dx, dy) <= kFarthestApart) return std::nullopt;
+  const bool blame_first = placed && !b.first_is_placed;
+  const std::string &to_blame = blame_first ? b.first : path, &other = blame_first ? path : b.first;
+  const std::string name = std::filesystem::path(to_blame).filename().string();
   return Error{fmt::format(
       "{}: it lies {:.0f} km from {}: say where it stands with --site {}=LAT,LON or --crs "
       "{}=EPSG:..., or leave it out.",
-      path, std::hypot(dx, dy) / 1000, first, std::filesystem::path(path).filename().string(),
-      std::filesystem::path(path).filename().string())};
+      to_blame, std::hypot(dx, dy) / 1000, other, name, name)};
 }
 
-std::optional<Error> add_file(Builder& b, SceneFile& f) {
+std::optional<Error> add_file(Builder& b, SceneFile& f, bool placed) {
   Scene& scene = b.loaded.scene;
   Model& m = *f.model;
   if (auto error = check_coordinates(m)) return error;
@@ -259,8 +263,9 @@ std::optional<Error> add_file(Builder& b, SceneFile& f) {
       scene.frame.origin = origin_of(*box);
       b.box = box;
       b.first = m.report.path;
+      b.first_is_placed = placed;
     } else {
-      if (auto error = check_near(*b.box, *box, m.report.path, b.first)) return error;
+      if (auto error = check_near(b, *box, m.report.path, placed)) return error;
       for (int k = 0; k < 3; ++k) {
         b.box->low[k] = std::min(b.box->low[k], box->low[k]);
         b.box->high[k] = std::max(b.box->high[k], box->high[k]);
@@ -365,8 +370,54 @@ std::optional<Error> build(Builder& b, std::vector<SceneFile>& files, const Load
         b.crs = utm_crs(site_of(f)->place);
       }
       if (auto error = place(f, b, georeferenced, ground)) return error;
-      if (auto error = add_file(b, f)) return error;
+      const bool placed = !crs_of(f, georeferenced).empty() || site_of(f).has_value();
+      if (auto error = add_file(b, f, placed)) return error;
     }
+  }
+  return std::nullopt;
+}
+
+// Heights above the ground that nobody calls so are taken for absolute ones, which looks right at
+// the sea.
+void warn_of_overlapping_surfaces(const std::vector<SceneFile>& files, Warnings& warnings) {
+  std::vector<std::pair<const SceneFile*, ModelBox>> surfaces;
+  for (const SceneFile& f : files) {
+    if (f.format != FileFormat::raster || f.above_ground) continue;
+    if (const auto box = box_of(*f.model)) surfaces.emplace_back(&f, *box);
+  }
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const ModelBox &a = surfaces[i].second, &b = surfaces[j].second;
+      const double dx = std::min(a.high.x, b.high.x) - std::max(a.low.x, b.low.x);
+      const double dy = std::min(a.high.y, b.high.y) - std::max(a.low.y, b.low.y);
+      if (dx <= 0 || dy <= 0) continue;
+      const SceneFile& lower = a.low.z < b.low.z ? *surfaces[i].first : *surfaces[j].first;
+      warn(warnings,
+           "Surface models lie over each other, all with absolute heights; if one holds heights "
+           "above the "
+           "ground, name it with --above-ground.",
+           lower.path.filename().string());
+    }
+  }
+}
+
+// A model this small, in metres, has the wrong unit: nothing is left of it at any pixel size.
+constexpr double kSmallestModel = 1e-3;
+// And one this small most likely.
+constexpr double kSmallModel = 0.5;
+
+std::optional<Error> check_size(const Builder& b, Warnings& warnings) {
+  const Vec3 size = b.box->high - b.box->low;
+  const double largest = std::max({size.x, size.y, size.z});
+  if (largest < kSmallestModel) {
+    return Error{fmt::format("{}: the model is {:.3g} m large; say its unit with --unit.", b.first,
+                             largest)};
+  }
+  if (largest < kSmallModel) {
+    warn(warnings,
+         fmt::format("The model is {:.3g} m large; if that is not so, say its unit with --unit.",
+                     largest),
+         b.first);
   }
   return std::nullopt;
 }
@@ -410,7 +461,13 @@ std::optional<Error> place_scene(LoadedScene& loaded, const std::vector<SceneFil
     loaded.place_by = "the CRS";
     loaded.north_by = "meridian convergence of the CRS";
     if (any_at_site) return std::nullopt;
-    if (options.site) frame.place = options.site->place, loaded.place_by = "--site";
+    if (options.site) {
+      frame.place = options.site->place;
+      loaded.place_by = "--site";
+      warn(loaded.scene.warnings,
+           "--site was used for the sun alone: the files say themselves where they lie.",
+           files[0].model->report.path);
+    }
     if (options.north) frame.true_north = *options.north, loaded.north_by = "--north";
     return std::nullopt;
   }
@@ -449,7 +506,9 @@ Result<LoadedScene> load_scene(const std::vector<std::filesystem::path>& paths,
     return Error{fmt::format("{}: there are no surfaces in it, so nothing that casts a shadow.",
                              names_of(paths))};
   }
+  if (auto error = check_size(builder, scene.warnings)) return *error;
   if (auto error = check_crs_used(files, builder, options)) return *error;
+  warn_of_overlapping_surfaces(files, scene.warnings);
   scene.frame.crs = builder.crs;
   if (auto error = place_scene(loaded, files, has_georeferenced(files), options)) return *error;
 

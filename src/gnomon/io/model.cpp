@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <gnomon/io/model.h>
+#include <gnomon/io/read_text.h>
 
 #include <bit>
 
@@ -61,7 +62,7 @@ std::string name_of(const Model& model, const ModelPolygon& polygon) {
   if (model.report.format == "OBJ") {
     return fmt::format("{}: line {}", model.report.path, polygon.number);
   }
-  const std::string& object = model.surfaces[polygon.surface].object;
+  const std::string object = printable(model.surfaces[polygon.surface].object, 200);
   if (object.empty()) return fmt::format("{}: polygon {}", model.report.path, polygon.number);
   return fmt::format("{}: object \"{}\", polygon {}", model.report.path, object, polygon.number);
 }

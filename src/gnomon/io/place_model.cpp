@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <vector>
 
@@ -29,12 +30,20 @@ std::optional<Error> move_to_crs(Model& model, const std::string& from, const st
 
 std::optional<Error> place_at_site(Model& model, const Site& site, double north,
                                    const std::string& crs, const GroundAt& ground) {
+  const auto misplaced = [&](const Error& error) {
+    return Error{fmt::format(
+        "{}: its site, latitude {:.6f}, longitude {:.6f}, cannot be among the other files: {}; "
+        "check "
+        "whether the two are swapped, or give another one with --site {}=LAT,LON.",
+        model.report.path, site.place.latitude / kDegree, site.place.longitude / kDegree,
+        error.message, std::filesystem::path(model.report.path).filename().string())};
+  };
   const auto at = reproject("OGC:CRS84", crs,
                             {{site.place.longitude / kDegree, site.place.latitude / kDegree}});
-  if (!at) return Error{model.report.path + ": its site: " + at.error().message};
+  if (!at) return misplaced(at.error());
   const Vec2 p = at.value()[0];
   const auto grid = locate(crs, Vec3(p, 0));
-  if (!grid) return Error{model.report.path + ": its site: " + grid.error().message};
+  if (!grid) return misplaced(grid.error());
 
   double height = site.place.height;
   const char* why = "as given";
@@ -62,9 +71,9 @@ std::optional<Error> place_at_site(Model& model, const Site& site, double north,
   model.report.placed = fmt::format(
       "local origin at {:.6f}, {:.6f} ({:.3f} east, {:.3f} north in {}), height {:.2f} m {}, "
       "turned by "
-      "{:.3f} degrees clockwise",
+      "{:.3f} degrees {}",
       site.place.latitude / kDegree, site.place.longitude / kDegree, p.x, p.y, short_crs(crs),
-      height, why, turn / kDegree);
+      height, why, std::abs(turn) / kDegree, turn < 0 ? "anticlockwise" : "clockwise");
   return std::nullopt;
 }
 

@@ -12,6 +12,8 @@
 namespace gnomon {
 namespace {
 
+constexpr std::size_t kMostOfName = 60;  // bytes of an element's name in messages
+
 template <class T>
 double stored(const char* bytes) {
   T value;
@@ -107,7 +109,8 @@ class PlyReader {
                : std::string();
   }
   Error at(const PlyElement& e, const std::string& what) const {
-    return Error{fmt::format("{}: {}{} {} {}", path(), place(), e.name, index_, what)};
+    return Error{fmt::format("{}: {}{} {} {}", path(), place(), printable(e.name, kMostOfName),
+                             index_, what)};
   }
 
   // What a header promises takes at least a byte an element, or the size of its fixed part.
@@ -157,7 +160,7 @@ class PlyReader {
     if (header_.storage == PlyStorage::kText) {
       if (!text_.next()) {
         return Error{fmt::format("{}: the file ends before {} {} of {}; it is cut off.", path(),
-                                 e.name, index_, e.count)};
+                                 printable(e.name, kMostOfName), index_, e.count)};
       }
       word_ = 0;
     }

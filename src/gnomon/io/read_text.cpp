@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <gnomon/core/utf8.h>
 #include <gnomon/io/read_text.h>
+#include <gnomon/io/step_string.h>
 
 #include <algorithm>
 #include <fstream>
@@ -67,6 +68,23 @@ std::size_t line_of(std::string_view text, std::size_t offset) {
     if (text[k] == '\n' || (text[k] == '\r' && !crlf)) ++line;
   }
   return line;
+}
+
+std::string printable(std::string_view text, std::size_t most) {
+  std::string out;
+  for (std::size_t k = 0; k < text.size();) {
+    const std::size_t length = utf8_length(text.substr(k));
+    if (out.size() + std::max<std::size_t>(length, 1) > most) return out + "...";
+    const auto first = static_cast<unsigned char>(text[k]);
+    if (length == 0 || first < 0x20 || first == 0x7f) {
+      out += '?';
+      ++k;
+    } else {
+      out += text.substr(k, length);
+      k += length;
+    }
+  }
+  return out;
 }
 
 std::string in_quotes(std::string_view text, std::size_t most) {

@@ -21,6 +21,10 @@ Result<std::string> read_start(const std::filesystem::path& path, std::size_t by
 // Line (from 1) of the byte at `offset`; lines end with LF, CR LF or CR.
 std::size_t line_of(std::string_view text, std::size_t offset);
 
+// `text` cut to `most` bytes, with ? for each control character and each byte that is not UTF-8:
+// fit for a message, where quotes would disturb.
+std::string printable(std::string_view text, std::size_t most);
+
 // `text` cut to `most` bytes, without control characters and broken UTF-8, in quotes: fit for a
 // message.
 std::string in_quotes(std::string_view text, std::size_t most = 60);

@@ -131,28 +131,29 @@ ReportTable hours_table(const Profile& profile, double sample_area, std::uint64_
 ReportTable objects_table(const Profile& profile, double sample_area,
                           const std::vector<ObjectHours>& objects) {
   // Rows that a reader looks through; the file has all.
-  constexpr std::size_t kMostRows = 30;
+  constexpr std::size_t kMostObjects = 30;
   const double ms_per_tick = static_cast<double>(profile.tick_ms) / profile.days;
   std::vector<const ObjectHours*> order;
   for (std::size_t k = 1; k < objects.size(); ++k) order.push_back(&objects[k]);
-  const auto mean = [](const ObjectHours& o) {
+  const auto mean_ticks = [](const ObjectHours& o) {
     return static_cast<double>(o.ticks) / static_cast<double>(o.samples);
   };
-  std::stable_sort(order.begin(), order.end(),
-                   [&](const ObjectHours* a, const ObjectHours* b) { return mean(*a) > mean(*b); });
+  std::stable_sort(order.begin(), order.end(), [&](const ObjectHours* a, const ObjectHours* b) {
+    return mean_ticks(*a) > mean_ticks(*b);
+  });
   ReportTable table;
   table.title = "Receiving objects, longest in shadow first";
   table.header = {"Object", "Area, m\u00b2", "Least", "Mean", "Longest"};
   for (const ObjectHours* o : order) {
-    if (table.rows.size() == kMostRows) break;
+    if (table.rows.size() == kMostObjects) break;
     table.rows.push_back({o->object, area_text(static_cast<double>(o->samples) * sample_area),
                           duration_text(o->least * ms_per_tick),
-                          duration_text(mean(*o) * ms_per_tick),
+                          duration_text(mean_ticks(*o) * ms_per_tick),
                           duration_text(o->most * ms_per_tick)});
   }
-  table.note = order.size() > kMostRows
-                   ? fmt::format("The first {} of {} objects; all are in objects.csv.", kMostRows,
-                                 order.size())
+  table.note = order.size() > kMostObjects
+                   ? fmt::format("The first {} of {} objects; all are in objects.csv.",
+                                 kMostObjects, order.size())
                    : "The same figures are in objects.csv.";
   return table;
 }

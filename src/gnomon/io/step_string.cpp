@@ -44,21 +44,6 @@ std::optional<std::uint32_t> hex(std::string_view& rest, std::size_t digits) {
   return value;
 }
 
-// Length of the UTF-8 sequence that `rest` starts with; 0 where it is none.
-std::size_t utf8_length(std::string_view rest) {
-  const auto first = static_cast<unsigned char>(rest[0]);
-  const std::size_t length = first < 0x80                     ? 1
-                             : first >= 0xC2 && first <= 0xDF ? 2
-                             : first >= 0xE0 && first <= 0xEF ? 3
-                             : first >= 0xF0 && first <= 0xF4 ? 4
-                                                              : 0;
-  if (length > rest.size()) return 0;
-  for (std::size_t k = 1; k < length; ++k) {
-    if ((static_cast<unsigned char>(rest[k]) & 0xC0) != 0x80) return 0;
-  }
-  return length;
-}
-
 // \X2\ (UTF-16) or \X4\ up to \X0\; false where it is broken, `rest` and `out` as before.
 bool wide(std::string_view& rest, std::size_t digits, std::string& out) {
   std::string_view ahead = rest;
@@ -82,6 +67,20 @@ bool wide(std::string_view& rest, std::size_t digits, std::string& out) {
 }
 
 }  // namespace
+
+std::size_t utf8_length(std::string_view rest) {
+  const auto first = static_cast<unsigned char>(rest[0]);
+  const std::size_t length = first < 0x80                     ? 1
+                             : first >= 0xC2 && first <= 0xDF ? 2
+                             : first >= 0xE0 && first <= 0xEF ? 3
+                             : first >= 0xF0 && first <= 0xF4 ? 4
+                                                              : 0;
+  if (length > rest.size()) return 0;
+  for (std::size_t k = 1; k < length; ++k) {
+    if ((static_cast<unsigned char>(rest[k]) & 0xC0) != 0x80) return 0;
+  }
+  return length;
+}
 
 std::string decode_step_string(std::string_view raw) {
   std::string out;

@@ -307,6 +307,10 @@ Triangulation without_geos(const std::vector<Ring>& rings, const std::vector<Vec
   if (!covers(result.triangles, {rings[0]}, positions, plane, corners)) {
     return fan(rings[0], reason);
   }
+  if (result.triangles.empty()) {  // an exact cover of nothing, which must not go unsaid
+    result.problem = "the outer ring goes back on its own edges and has no area";
+    return result;
+  }
   if (rings.size() > 1) result.problem = reason + "; its holes were left out";
   return result;
 }

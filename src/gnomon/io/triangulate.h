@@ -22,9 +22,10 @@ struct Triangulation {
 // which is checked exactly. Rings that touch themselves, as slits to a hole do, are fine. Where
 // such a cover cannot be had `problem` says why: holes that cross or touch too much are left out, a
 // ring that crosses itself or has no area becomes a fan of its corners. An outer ring of fewer than
-// 3 distinct vertices gives no triangles and a problem; such a hole is left out, with a problem.
-// Three corners without holes are one triangle, whatever its area. Preconditions: indices in range;
-// coordinates finite, at most kLargestCoordinate (core/exact.h).
+// 3 distinct vertices, or one that goes back on all its own edges, gives no triangles and a
+// problem; such a hole is left out, with a problem. Three corners without holes are one triangle,
+// whatever its area. Preconditions: indices in range; coordinates finite, at most
+// kLargestCoordinate (core/exact.h).
 Triangulation triangulate(const std::vector<Vec3>& positions,
                           const std::vector<std::vector<std::uint32_t>>& rings);
 

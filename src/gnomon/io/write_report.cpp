@@ -146,6 +146,9 @@ std::optional<Error> add_section(std::string& out, const Report& report, std::si
     if (auto failed = add_picture(out, picture)) return failed;
   }
   if (auto failed = add_sun(out, report, section)) return failed;
+  for (const ReportTable& table : section.later_tables) {
+    if (auto failed = add_table(out, table)) return failed;
+  }
   out += "</section>\n";
   return {};
 }

@@ -58,8 +58,9 @@ struct ReportSection {
   ReportFacts results;              // key results: mean, longest, ...
   std::vector<ReportTable> tables;  // hours_table() first, see report_tables.h
   std::vector<ReportPicture> pictures;
-  std::vector<SunPathDay> sun_days;  // of the sun-path diagram; none: no diagram
-  std::vector<TimeSample> steps;     // midpoints of the steps; empty: no table of them
+  std::vector<ReportTable> later_tables = {};  // after pictures, sun path and steps: long ones
+  std::vector<SunPathDay> sun_days;            // of the sun-path diagram; none: no diagram
+  std::vector<TimeSample> steps;               // midpoints of the steps; empty: no table of them
 };
 
 struct Report {

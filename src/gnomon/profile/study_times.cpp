@@ -26,7 +26,7 @@ constexpr milliseconds kLongestStep = hours(24);
 constexpr std::int64_t kMostSteps = 100000;
 
 // The sun's transit on a clock that suits the place: China's reaches 15:10.
-constexpr milliseconds kStrangeNoon = hours(5);
+constexpr milliseconds kStrangeNoon = minutes(210);
 
 // Time since the clock's midnight, up to 24:00.
 std::optional<milliseconds> read_clock(std::string_view text) {
@@ -218,14 +218,15 @@ Result<DayWindow> day_window(const StudyTimes& times, const Place& place, const 
     }
   }
   edge(window.end, end.value().clock);
-  if (remainder)
+  // From sunrise or to sunset it hardly ever is.
+  if (remainder && !times.from.empty() && !times.to.empty())
     warn(window.warnings, "the window is not a whole number of steps: the last step is shorter",
          times.every);
 
   const Instant noon = date.day.begin + (date.day.end - date.day.begin) / 2;
   if (times.zone != "UTC" && std::chrono::abs(date.day.arc.transit - noon) > kStrangeNoon)
     warn(window.warnings,
-         "the sun is highest more than 5 hours from 12:00 on this clock: check --tz and the "
+         "the sun is highest more than 3.5 hours from 12:00 on this clock: check --tz and the "
          "place's longitude",
          times.zone);
   return DayWindow{date.date, std::move(window)};
