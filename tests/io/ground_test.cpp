@@ -408,6 +408,32 @@ TEST(Ground, IsLevelAtTheLowestPointOfAModelWithoutObjects) {
   EXPECT_DOUBLE_EQ((*ground_at(s, 20, 20))[0], 2);
 }
 
+TEST(Ground, DoesNotRiseToTheUpperFloorsOfADesignBesideCityObjects) {
+  Scene s;
+  add_box(s, "house", rectangle(0, 0, 10, 10, 0), 10);
+  // Nodes of a glTF: a tower, and a slab on top of it.
+  add_box(s, "tower", rectangle(30, 0, 40, 10, 0), 40, "", "mesh");
+  add_box(s, "slab", rectangle(28, -2, 42, 12, 40), 1, "", "mesh");
+  for (Surface& surface : s.surfaces) {
+    surface.file = surface.object == "house" ? 0 : 1;
+    if (surface.file == 1) surface.semantic.clear();
+  }
+  const std::size_t model = s.mesh.positions.size();
+  ASSERT_TRUE(add_ground(s, {"auto", {-50, -50, 90, 60}}));
+  ASSERT_GT(s.mesh.positions.size(), model);
+  for (std::size_t k = model; k < s.mesh.positions.size(); ++k) EXPECT_EQ(s.mesh.positions[k].z, 0);
+}
+
+TEST(Ground, KeepsObjectsOfTheSameNameInTwoFilesApart) {
+  Scene s;
+  add_box(s, "1", rectangle(0, 0, 10, 10, 0), 10);
+  add_box(s, "1", rectangle(30, 0, 40, 10, 0), 10, "none");
+  for (std::size_t k = 3; k < s.surfaces.size(); ++k) s.surfaces[k].file = 1;
+  const Footprints feet = find_footprints(s);
+  EXPECT_EQ(feet.closed.size(), 2u);
+  EXPECT_EQ(feet.open.size(), 4u);
+}
+
 TEST(Ground, LeavesTheModelsTerrainAlone) {
   Scene s;
   add_box(s, "a", rectangle(0, 0, 10, 10, 0), 8);

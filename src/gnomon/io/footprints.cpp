@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include <glm/common.hpp>
 
@@ -104,35 +105,40 @@ int turn(const Vec3& a, const Vec3& b, const Vec3& c) {
 
 Footprints find_footprints(const Scene& scene) {
   Footprints out;
-  std::set<std::string> grounded, grounded_parents;  // objects that have a GroundSurface
-  out.one_object = true;
+  using Name = std::pair<std::uint32_t, std::string>;  // of an object: its file, its name there
+  std::set<Name> grounded, grounded_parents;           // objects that have a GroundSurface
+  std::set<std::uint32_t> cities;                      // files that name city objects
   for (const Surface& s : scene.surfaces) {
-    if (contains(kCityObjects, s.group) || is_aloof(s.group)) out.one_object = false;
-    if (s.semantic != "GroundSurface") continue;
-    out.one_object = false;
-    grounded.insert(s.object);
-    if (s.group.ends_with("Part")) grounded_parents.insert(parent(s.object));
+    const bool ground = s.semantic == "GroundSurface";
+    if (ground || contains(kCityObjects, s.group) || is_aloof(s.group)) cities.insert(s.file);
+    if (!ground) continue;
+    grounded.insert({s.file, s.object});
+    if (s.group.ends_with("Part")) grounded_parents.insert({s.file, parent(s.object)});
   }
+  out.one_object = cities.empty();
 
   // Per surface: 0 nothing, 1 closes a building from below, else 2 + index of the object it belongs
   // to.
-  std::map<std::string, std::size_t> objects;
+  std::map<Name, std::size_t> objects;
   std::vector<std::size_t> role(scene.surfaces.size(), 0);
   for (std::size_t k = 0; k < scene.surfaces.size(); ++k) {
     const Surface& s = scene.surfaces[k];
-    const auto belongs_to = [&](const std::string& name) {
+    const auto belongs_to = [&](const Name& name) {
       return 2 + objects.emplace(name, objects.size()).first->second;
     };
     if (out.one_object) {
-      role[k] = belongs_to("");
+      role[k] = belongs_to({0, ""});
+    } else if (!cities.count(s.file)) {
+      // The roof and the upper floors of a design are objects of their own, but stand on no ground.
+      role[k] = belongs_to({s.file, ""});
     } else if (s.semantic == "GroundSurface") {
       // The underside of a bridge or a balcony is no ground.
       if (!is_aloof(s.group)) role[k] = 1;
-    } else if (!is_aloof(s.group) && !grounded.count(s.object)) {
+    } else if (!is_aloof(s.group) && !grounded.count({s.file, s.object})) {
       // Parts without a bottom stand on their siblings, and a building on its parts, if those have
       // one.
-      const bool part = s.group.ends_with("Part");
-      const std::string whole = part && !parent(s.object).empty() ? parent(s.object) : s.object;
+      const bool part = s.group.ends_with("Part") && !parent(s.object).empty();
+      const Name whole{s.file, part ? parent(s.object) : s.object};
       if (!grounded.count(whole) && !grounded_parents.count(whole)) role[k] = belongs_to(whole);
     }
   }

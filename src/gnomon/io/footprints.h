@@ -18,8 +18,8 @@ struct Footprints {
   // Lower edges of objects that are open from below; the ground passes under these objects, through
   // these edges.
   std::vector<std::array<Vec3, 2>> open;
-  // The scene knows no building: all of it counts as one object (an OBJ, say), which stands on
-  // level ground at its lowest point.
+  // No file names a building: all of the scene counts as one object (an OBJ, say), which stands on
+  // level ground at its lowest point. Beside files that do, each such file is one object.
   bool one_object = false;
 };
 

@@ -89,8 +89,8 @@ bool is_triangle(const Model& m, const ModelPolygon& p) {
   return c[0] != c[1] && c[1] != c[2] && c[2] != c[0];
 }
 
-// Appends the model's triangles to the scene.
-void add_model(Scene& scene, Model& m) {
+// Appends the model's triangles to the scene. `file`: its number among the scene's files.
+void add_model(Scene& scene, Model& m, std::uint32_t file) {
   TriMesh& mesh = scene.mesh;
   const auto first_vertex = static_cast<std::uint32_t>(mesh.positions.size());
   const auto first_surface = static_cast<std::uint32_t>(scene.surfaces.size());
@@ -129,7 +129,10 @@ void add_model(Scene& scene, Model& m) {
              : "Polygons that are not simple could not be triangulated exactly.",
          fmt::format("{}: {}", name_of(m, p), result.problem));
   }
-  for (Surface& s : m.surfaces) scene.surfaces.push_back(std::move(s));
+  for (Surface& s : m.surfaces) {
+    s.file = file;
+    scene.surfaces.push_back(std::move(s));
+  }
   append(scene.warnings, m.warnings);
 }
 
@@ -254,7 +257,7 @@ std::optional<Error> check_near(const Builder& b, const ModelBox& box, const std
       to_blame, std::hypot(dx, dy) / 1000, other, name, name)};
 }
 
-std::optional<Error> add_file(Builder& b, SceneFile& f, bool placed) {
+std::optional<Error> add_file(Builder& b, SceneFile& f, std::uint32_t number, bool placed) {
   Scene& scene = b.loaded.scene;
   Model& m = *f.model;
   if (auto error = check_coordinates(m)) return error;
@@ -274,7 +277,7 @@ std::optional<Error> add_file(Builder& b, SceneFile& f, bool placed) {
   } else {
     warn(scene.warnings, "Files without surfaces.", m.report.path);
   }
-  add_model(scene, m);
+  add_model(scene, m, number);
   return std::nullopt;
 }
 
@@ -371,7 +374,7 @@ std::optional<Error> build(Builder& b, std::vector<SceneFile>& files, const Load
       }
       if (auto error = place(f, b, georeferenced, ground)) return error;
       const bool placed = !crs_of(f, georeferenced).empty() || site_of(f).has_value();
-      if (auto error = add_file(b, f, placed)) return error;
+      if (auto error = add_file(b, f, static_cast<std::uint32_t>(k), placed)) return error;
     }
   }
   return std::nullopt;

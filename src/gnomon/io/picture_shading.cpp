@@ -4,12 +4,12 @@
 #include <cmath>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 
 #include <glm/geometric.hpp>
 
 #include <gnomon/core/parallel.h>
 #include <gnomon/core/place.h>
+#include <gnomon/scene/objects.h>
 
 namespace gnomon {
 namespace {
@@ -70,16 +70,9 @@ struct Face {
 };
 
 std::vector<Face> faces_of(const Scene& scene, int threads) {
-  std::unordered_map<std::string, std::uint32_t> numbers;
-  std::vector<std::uint32_t> object_of(scene.surfaces.size());
+  const Objects whole = whole_objects(scene);
   std::vector<Kind> kind(scene.surfaces.size());
-  for (std::size_t k = 0; k < scene.surfaces.size(); ++k) {
-    const std::string& name = scene.surfaces[k].object;
-    const std::string parent = name.substr(0, name.find('/'));
-    object_of[k] =
-        numbers.try_emplace(parent, static_cast<std::uint32_t>(numbers.size())).first->second;
-    kind[k] = kind_of(scene.surfaces[k]);
-  }
+  for (std::size_t k = 0; k < scene.surfaces.size(); ++k) kind[k] = kind_of(scene.surfaces[k]);
   std::vector<Face> faces(scene.mesh.triangles.size());
   constexpr int kChunk = 4096;
   const int chunks = static_cast<int>((faces.size() + kChunk - 1) / kChunk);
@@ -92,7 +85,7 @@ std::vector<Face> faces_of(const Scene& scene, int threads) {
           glm::cross(scene.mesh.positions[corner[1]] - a, scene.mesh.positions[corner[2]] - a);
       const double length = glm::length(n);
       if (length > 0) faces[t].normal = n / length;
-      faces[t].object = object_of[scene.surface_of[t]];
+      faces[t].object = whole.of_surface[scene.surface_of[t]];
       faces[t].kind = kind[scene.surface_of[t]];
     }
   });

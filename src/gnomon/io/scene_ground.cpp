@@ -1,6 +1,7 @@
 #include <gnomon/io/footprints.h>
 #include <gnomon/io/ground_at.h>
 #include <gnomon/io/scene_ground.h>
+#include <gnomon/scene/objects.h>
 #include <gnomon/view/view.h>
 
 #include <algorithm>
@@ -8,8 +9,6 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <string>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -23,16 +22,10 @@ struct Foot {
 };
 
 std::vector<Foot> feet_of(const Scene& scene) {
-  std::unordered_map<std::string, std::size_t> index;
-  std::vector<Foot> feet;
-  std::vector<std::size_t> foot_of(scene.surfaces.size());
-  for (std::size_t s = 0; s < scene.surfaces.size(); ++s) {
-    const auto [at, added] = index.emplace(scene.surfaces[s].object, feet.size());
-    if (added) feet.emplace_back();
-    foot_of[s] = at->second;
-  }
+  const Objects parts = objects(scene);
+  std::vector<Foot> feet(parts.names.size());
   for (std::size_t t = 0; t < scene.mesh.triangles.size(); ++t) {
-    Foot& foot = feet[foot_of[scene.surface_of[t]]];
+    Foot& foot = feet[parts.of_surface[scene.surface_of[t]]];
     for (const std::uint32_t v : scene.mesh.triangles[t]) {
       const Vec3& p = scene.mesh.positions[v];
       foot.box = {std::min(foot.box.x0, p.x), std::min(foot.box.y0, p.y),

@@ -1,9 +1,11 @@
 #include <gnomon/io/scene_parts.h>
 
+#include <algorithm>
 #include <unordered_map>
 #include <utility>
 
 #include <gnomon/io/picture_shading.h>
+#include <gnomon/scene/objects.h>
 
 namespace gnomon {
 namespace {
@@ -18,7 +20,8 @@ std::string material_name(const Surface& s) {
 
 SceneParts scene_parts(const Scene& scene) {
   SceneParts out;
-  std::unordered_map<std::string, std::size_t> objects;
+  const Objects all = objects(scene);
+  std::unordered_map<std::uint32_t, std::size_t> numbers;  // of those that have triangles
   std::unordered_map<std::string, std::uint32_t> materials;
   struct Where {
     bool known = false;
@@ -30,7 +33,7 @@ SceneParts scene_parts(const Scene& scene) {
     Where& place = places[s];
     if (!place.known) {
       const Surface& surface = scene.surfaces[s];
-      const auto [object, new_object] = objects.try_emplace(surface.object, out.objects.size());
+      const auto [object, new_object] = numbers.try_emplace(all.of_surface[s], out.objects.size());
       if (new_object) out.objects.push_back({surface.object, {}});
       const std::string name = material_name(surface);
       const auto [material, new_material] =
@@ -42,12 +45,8 @@ SceneParts scene_parts(const Scene& scene) {
     out.objects[place.object].parts[place.part].triangles.push_back(t);
   }
   // A file that has said `o name` cannot take it back, so what has no name comes before.
-  if (const auto nameless = objects.find(""); nameless != objects.end()) {
-    const auto at = out.objects.begin() + static_cast<std::ptrdiff_t>(nameless->second);
-    SceneObject object = std::move(*at);
-    out.objects.erase(at);
-    out.objects.insert(out.objects.begin(), std::move(object));
-  }
+  std::stable_partition(out.objects.begin(), out.objects.end(),
+                        [](const SceneObject& o) { return o.name.empty(); });
   return out;
 }
 

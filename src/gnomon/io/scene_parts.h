@@ -28,7 +28,7 @@ struct PartMaterial {
 };
 
 struct SceneParts {
-  std::vector<SceneObject> objects;  // in the scene's order, but the one without a name first
+  std::vector<SceneObject> objects;  // in the scene's order, but those without a name first
   std::vector<PartMaterial> materials;
 };
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <unordered_map>
 
 #include <gnomon/profile/hour_classes.h>
+#include <gnomon/scene/objects.h>
 
 namespace gnomon {
 namespace {
@@ -44,21 +44,17 @@ std::vector<ObjectHours> hours_by_object(const Profile& profile, const Receivers
     object.classes.assign(count, 0);
     return object;
   };
+  const Objects whole = whole_objects(scene);
   std::vector<ObjectHours> objects{named("(all)")};
-  std::unordered_map<std::string, std::size_t> numbers;
-  std::vector<std::size_t> object_of;  // per surface
-  for (const Surface& surface : scene.surfaces) {
-    const std::string name = surface.object.substr(0, surface.object.find('/'));
-    const auto [at, is_new] = numbers.try_emplace(name, objects.size());
-    if (is_new) objects.push_back(named(name.empty() ? "(no name)" : name));
-    object_of.push_back(at->second);
+  for (const std::string& name : whole.names) {
+    objects.push_back(named(name.empty() ? "(no name)" : name));
   }
   for (std::size_t k = 0; k < profile.valid.size(); ++k) {
     if (profile.valid[k] == 0) continue;
     const std::uint64_t of_class = class_of(profile, k, step_ms, count);
     add(objects[0], profile.shadow_ticks[k], of_class);
-    add(objects[object_of[scene.surface_of[receivers.triangle[k]]]], profile.shadow_ticks[k],
-        of_class);
+    add(objects[1 + whole.of_surface[scene.surface_of[receivers.triangle[k]]]],
+        profile.shadow_ticks[k], of_class);
   }
   objects.erase(std::remove_if(objects.begin() + 1, objects.end(),
                                [](const ObjectHours& o) { return o.samples == 0; }),

@@ -20,6 +20,7 @@ struct Surface {
   std::string material;  // OBJ material; CityJSON material name
   std::string semantic;  // CityJSON semantic surface ("RoofSurface", "WallSurface", ...); "Ground"
                          // for --ground
+  std::uint32_t file = 0;  // number of the file it is from; equal names in two are two objects
   bool casts = true;
   bool receives = true;
 };
