@@ -47,7 +47,7 @@ void check_output(const Options& o) {
 
 void run(const Options& o) {
   check_output(o);
-  const LoadedScene loaded = take(load_scene(o.models.models, o.models.load));
+  const LoadedScene loaded = read_models(o.models, o.common.quiet);
   const Scene& scene = loaded.scene;
   const std::string software = std::string("gnomon ") + GNOMON_VERSION;
   Warnings warnings = scene.warnings;

@@ -60,10 +60,6 @@ struct Inspection {
   double load_ms = 0;                    // milliseconds from the files to the scene
 };
 
-bool is_added_ground(const Scene& scene, const GroundReport& ground, std::uint32_t surface) {
-  return ground.triangles > 0 && surface + 1 == scene.surfaces.size();
-}
-
 double triangle_area(const TriMesh& mesh, const Triangle& t) {
   const Vec3 a = mesh.positions[t[1]] - mesh.positions[t[0]],
              b = mesh.positions[t[2]] - mesh.positions[t[0]];
@@ -132,7 +128,7 @@ Inspection inspect(LoadedScene loaded) {
   for (std::uint32_t t = 0; t < scene.mesh.triangles.size(); ++t) {
     out.casting += casts(scene, t);
     out.receiving += receives(scene, t);
-    if (is_added_ground(scene, out.loaded.ground, scene.surface_of[t])) continue;
+    if (is_made_ground(scene.surfaces[scene.surface_of[t]])) continue;
     const Triangle& v = scene.mesh.triangles[t];
     const Surface& s = scene.surfaces[scene.surface_of[t]];
     model.triangles.push_back(v);
@@ -420,10 +416,9 @@ std::string as_json(const Inspection& in) {
 
 void run(const Options& options) {
   const auto start = std::chrono::steady_clock::now();
-  auto loaded = load_scene(options.model.models, options.model.load);
-  if (!loaded) throw Failure(loaded.error().message);
+  LoadedScene loaded = read_models(options.model, options.common.quiet);
   const std::chrono::duration<double, std::milli> load = std::chrono::steady_clock::now() - start;
-  Inspection in = inspect(std::move(loaded).value());
+  Inspection in = inspect(std::move(loaded));
   in.load_ms = load.count();
   fmt::print("{}", options.json ? as_json(in) : as_text(in));
 }

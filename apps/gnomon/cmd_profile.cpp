@@ -315,9 +315,7 @@ void run(const Options& o) {
   const std::vector<StudyTimes> times = study_times(o);
   const bool camera = wants_camera(o.view);
 
-  LoadOptions load = o.models.load;
-  if (!load.ground_extent) load.ground_extent = parse_bounds(o.view.bounds);
-  LoadedScene loaded = take(load_scene(o.models.models, load));
+  LoadedScene loaded = read_models(o.models, o.common.quiet, parse_bounds(o.view.bounds));
   Scene& scene = loaded.scene;
   if (!scene.frame.place) {
     throw Failure(

@@ -138,9 +138,7 @@ void run(const Options& o) {
   const auto begin = std::chrono::steady_clock::now();
   check_light_options(o.light);
   const bool camera = wants_camera(o.view);
-  LoadOptions load = o.models.load;
-  if (!load.ground_extent) load.ground_extent = parse_bounds(o.view.bounds);
-  const LoadedScene loaded = take(load_scene(o.models.models, load));
+  const LoadedScene loaded = read_models(o.models, o.common.quiet, parse_bounds(o.view.bounds));
   const Scene& scene = loaded.scene;
   const ChosenLight light = choose_light(o.light, scene);
   const double azimuth = light_azimuth(scene, light.light);

@@ -289,14 +289,9 @@ std::string name_of(const std::vector<std::filesystem::path>& models) {
 }
 
 void run(const VerifyOptions& o) {
-  const LoadedScene loaded = load_scene(o.model.models, o.model.load).value();
+  const LoadedScene loaded = read_models(o.model, o.common.quiet);
   const Scene& scene = loaded.scene;
-  if (!o.common.quiet) {
-    for (const Warning& w : scene.warnings) {
-      fmt::print(stderr, "gnomon: warning: {} ({}x{}{})\n", w.what, w.count,
-                 w.first.empty() ? "" : ", first: ", w.first);
-    }
-  }
+  if (!o.common.quiet) print_warnings(scene.warnings);
   const Oracle oracle = build_oracle(scene);
   const Casters casters = prepare_casters(scene);
   Result<EmbreeScene> embree =

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "commands.h"
+#include "progress.h"
 #include "time_options.h"
 
 namespace gnomon::app {
@@ -190,6 +191,14 @@ void add_model_options(CLI::App& command, ModelOptions& options) {
   add_globs("--receive", load.receive, "Only surfaces that match receive shadow");
   add_footprints(command, options.load.footprints);
   add_surfaces(command, load);
+}
+
+LoadedScene read_models(const ModelOptions& options, bool quiet, std::optional<Bounds2> bounds) {
+  const ProgressLine line(quiet);
+  LoadOptions load = options.load;
+  if (!load.ground_extent) load.ground_extent = bounds;
+  load.progress = [&](const std::string& what) { line.show(what); };
+  return take(load_scene(options.models, load));
 }
 
 std::string title_of(const ModelOptions& options) {

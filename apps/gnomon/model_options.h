@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,11 @@ struct ModelOptions {
 // --site take [FILE=]VALUE, for one file or for all, and may be repeated; so may the last three,
 // which take one pattern each. `options` must outlive the parsing.
 void add_model_options(CLI::App& command, ModelOptions& options);
+
+// The scene, with a line of progress on the terminal. `bounds`: the ground reaches at least there
+// (coordinates of the scene's CRS). Failure where load_scene() has an error.
+LoadedScene read_models(const ModelOptions& options, bool quiet,
+                        std::optional<Bounds2> bounds = {});
 
 // Names of the models for a picture's title: "vienna, towers" for vienna.city.json and towers.obj.
 std::string title_of(const ModelOptions& options);

@@ -14,6 +14,18 @@ constexpr int kCells = 30;                                  // characters of the
 
 }  // namespace
 
+ProgressLine::ProgressLine(bool quiet) : enabled_(!quiet && isatty(STDERR_FILENO) != 0) {}
+
+ProgressLine::~ProgressLine() {
+  if (enabled_) fmt::print(stderr, "\r\x1b[K");
+}
+
+void ProgressLine::show(const std::string& what) const {
+  if (!enabled_) return;
+  fmt::print(stderr, "\r\x1b[K{} ...", what);
+  std::fflush(stderr);
+}
+
 ProgressBar::ProgressBar(std::string what, bool quiet)
     : what_(std::move(what)), enabled_(!quiet && isatty(STDERR_FILENO) != 0) {}
 

@@ -24,4 +24,19 @@ class ProgressBar {
   Clock::time_point begin_ = Clock::now(), last_ = begin_;
 };
 
+// On the terminal's last line: what is done now, in place of what was done before; removed at the
+// end. Nothing where `quiet` or standard error is no terminal.
+class ProgressLine {
+ public:
+  explicit ProgressLine(bool quiet);
+  ~ProgressLine();
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+
+  void show(const std::string& what) const;
+
+ private:
+  bool enabled_;
+};
+
 }  // namespace gnomon::app

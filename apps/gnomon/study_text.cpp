@@ -47,7 +47,8 @@ std::string window_text(const StudyTimes& t, const Samples& s, const Place& plac
 }
 
 std::string steps_text(const StudyTimes& t, const Samples& s) {
-  const std::string steps = fmt::format("{} steps of {}", s.midpoints.size(), t.every);
+  const std::string steps = fmt::format("{} step{} of {}", s.midpoints.size(),
+                                        s.midpoints.size() == 1 ? "" : "s", t.every);
   if (s.dates.size() == 1) return steps;
   return fmt::format("mean per day over {} days, {}", s.dates.size(), steps);
 }

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 #include <gnomon/core/exact.h>
+#include <gnomon/io/ground.h>
 #include <unistd.h>
 #include <glm/geometric.hpp>
 
@@ -110,7 +111,9 @@ void add_view_options(CLI::App& command, ViewOptions& o) {
       ->group(group);
   command
       .add_option("--pixel", o.pixel,
-                  "Plan: size of a sample in metres (default: about 2000 samples across)")
+                  "Plan: size of a sample in metres (default: the finest of 0.05, 0.1, 0.2, 0.25, "
+                  "0.5, 1, ... that "
+                  "gives at most 2000 across)")
       ->check(positive_number())
       ->group(group);
   command
@@ -135,11 +138,17 @@ void add_view_options(CLI::App& command, ViewOptions& o) {
       ->group(group);
 }
 
+// Where the model brings its own terrain, or no ground is wanted, nothing lies beyond it.
+bool has_made_ground(const Scene& scene) {
+  return std::any_of(scene.surface_of.begin(), scene.surface_of.end(),
+                     [&](std::uint32_t s) { return is_made_ground(scene.surfaces[s]); });
+}
+
 Box model_box(const Scene& scene) {
   constexpr double kInf = std::numeric_limits<double>::infinity();
   Box box{{kInf, kInf, kInf}, {-kInf, -kInf, -kInf}};
   for (std::size_t t = 0; t < scene.mesh.triangles.size(); ++t) {
-    if (scene.surfaces[scene.surface_of[t]].object == "Ground") continue;
+    if (is_made_ground(scene.surfaces[scene.surface_of[t]])) continue;
     for (const std::uint32_t v : scene.mesh.triangles[t]) {
       const Vec3& p = scene.mesh.positions[v];
       for (int k = 0; k < 3; ++k) {
@@ -196,10 +205,13 @@ View make_plan(const Scene& scene, const ViewOptions& o) {
                       box.hi.y + origin.y));
     }
   } else {
-    // Room for shadows: three heights of the model, but no more than 50 m or a twentieth of a large
-    // model.
+    // Room for shadows on the ground beyond the model: three heights of it (a sun 18 degrees high).
+    // Of a city, whose surroundings are missing anyway, no more than 50 m or a twentieth of it.
     const double side = std::max(box.hi.x - box.lo.x, box.hi.y - box.lo.y);
-    const double margin = std::min(3 * (box.hi.z - box.lo.z), std::max(50.0, 0.05 * side));
+    const double shadow = 3 * (box.hi.z - box.lo.z);
+    const bool few_buildings = shadow >= side;
+    const double most = few_buildings ? shadow : std::max(50.0, 0.05 * side);
+    const double margin = has_made_ground(scene) ? std::min(shadow, most) : 0;
     b = {box.lo.x - margin, box.lo.y - margin, box.hi.x + margin, box.hi.y + margin};
   }
   double pixel = o.pixel;

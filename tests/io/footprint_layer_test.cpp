@@ -364,7 +364,12 @@ TEST_F(FootprintLayer, BuildingsStandOnTheLowestGroundUnderTheirCorners) {
 }
 
 TEST_F(FootprintLayer, WithoutGroundTheyStandAtZeroAndAreCounted) {
-  const Model m = model(collection({house(R"("height":5)"), house(R"("height":5)", 20)}));
+  const std::string two = collection({house(R"("height":5)"), house(R"("height":5)", 20)});
+  const Model alone = model(two);  // nothing else in the scene: nothing to warn of
+  EXPECT_EQ(heights(alone).begin()->second.low, 0);
+  EXPECT_TRUE(alone.warnings.empty());
+  const GroundAt nowhere = [](double, double) { return std::optional<double>(); };
+  const Model m = model(two, {}, nowhere);
   EXPECT_EQ(heights(m).begin()->second.low, 0);
   EXPECT_EQ(warning(m, "stand at height 0").count, 2u);
   const GroundAt west = [](double x, double) {

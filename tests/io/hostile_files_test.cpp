@@ -160,7 +160,8 @@ TEST(HostileFootprints, IdsWithControlCharactersDoNotReachMessages) {
                          R"({"type":"Feature","id":"a\n\u001b[2J\u00f6","properties":{"height":3},)"
                          R"("geometry":{"type":"Polygon","coordinates":[[[11,48],[11.001,48],)"
                          R"([11.001,48.001],[11,48]]]}}]})";
-  const auto model = read_footprints(path, {}, "", "", {});
+  const auto model =
+      read_footprints(path, {}, "", "", [](double, double) { return std::optional<double>(); });
   ASSERT_TRUE(model) << model.error().message;
   bool named = false;
   for (const Warning& w : model.value().warnings) {

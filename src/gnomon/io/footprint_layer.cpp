@@ -292,7 +292,8 @@ class Reader {
       }
     }
     if (!z) z = lowest_ground(rings);
-    if (!z) warning("Footprints without ground below them stand at height 0.", *b.feature);
+    if (!z && ground_)
+      warning("Footprints without ground below them stand at height 0.", *b.feature);
     return z.value_or(0.0);
   }
 

@@ -537,6 +537,8 @@ void add_to_scene(Scene& scene, const Surface3& ground) {
 
 }  // namespace
 
+bool is_made_ground(const Surface& s) { return s.object == "Ground" && s.group == "Ground"; }
+
 Result<GroundReport> add_ground(Scene& scene, const GroundOptions& options) {
   if (options.mode == "none") return GroundReport{"none", 0};
 

@@ -19,6 +19,9 @@ struct GroundOptions {
   Bounds2 extent;  // scene coordinates: the ground reaches at least this far, and below the model
 };
 
+// True for the surface that add_ground() makes, also where a converted scene is read again.
+bool is_made_ground(const Surface& surface);
+
 // What became of the ground, in one sentence for summary.json.
 struct GroundReport {
   std::string kind;  // "model terrain", "through ground surfaces", "level", "none"

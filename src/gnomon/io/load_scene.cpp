@@ -335,10 +335,15 @@ std::optional<Error> place(SceneFile& f, const Builder& b, bool georeferenced,
   return place_at_site(m, *site, north_of(f).value_or(0), b.crs, ground);
 }
 
+void tell(const LoadOptions& options, const std::string& what) {
+  if (options.progress) options.progress(what);
+}
+
 // Reads and places all files, those that stand on others last.
 std::optional<Error> build(Builder& b, std::vector<SceneFile>& files, const LoadOptions& options) {
   for (SceneFile& f : files) {
     if (!is_read_first(f)) continue;
+    tell(options, "reading " + f.path.filename().string());
     auto model = read_model(f, options, "", {});
     if (!model) return model.error();
     f.model = std::move(model).value();
@@ -360,11 +365,12 @@ std::optional<Error> build(Builder& b, std::vector<SceneFile>& files, const Load
   std::vector<int> ranks;
   for (const SceneFile& f : files) ranks.push_back(rank(f));
   for (const int now : {0, 1, 2}) {
-    const GroundAt ground = now == 2 ? ground_of(b.loaded.scene) : GroundAt();
+    const GroundAt ground = now == 2 && b.box ? ground_of(b.loaded.scene) : GroundAt();
     for (std::size_t k = 0; k < files.size(); ++k) {
       SceneFile& f = files[k];
       if (ranks[k] != now) continue;
       if (!f.model) {
+        tell(options, "reading " + f.path.filename().string());
         auto model = read_model(f, options, b.crs, ground);
         if (!model) return model.error();
         f.model = std::move(model).value();
@@ -525,11 +531,13 @@ Result<LoadedScene> load_scene(const std::vector<std::filesystem::path>& paths,
          "--up and --unit were not used: these files say themselves what their axes are.", "");
   }
 
+  tell(options, "joining vertices");
   loaded.zero_area_triangles = weld_scene(scene);
   if (scene.mesh.triangles.empty()) {
     return Error{fmt::format("{}: none of its surfaces has an area, so nothing casts a shadow.",
                              names_of(paths))};
   }
+  tell(options, "making the ground");
   auto ground = add_ground(scene, {options.ground, ground_extent(scene, options)});
   if (!ground) return ground.error();
   loaded.ground = std::move(ground).value();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -55,6 +56,8 @@ struct LoadOptions {
   std::optional<Bounds2> ground_extent = {};  // scene CRS coordinates; empty: the model's box and 3
                                               // times its height around it
   std::vector<std::string> cast = {}, no_cast = {}, receive = {};  // globs, see scene/select.h
+  // Told what begins now, for people: "reading terrain.tif".
+  std::function<void(const std::string&)> progress = {};
 };
 
 struct LoadedScene {

@@ -32,7 +32,47 @@ std::optional<int> read_day_step(std::string_view text) {
   return step;
 }
 
-Error unreadable(const std::string& entry, const char* why) {
+// Why a date is none: "February 2023 has 28 days", or how it is written here.
+std::string why_no_date(std::string_view text) {
+  std::string_view rest = text;
+  int number[3] = {0, 0, 0};
+  std::size_t digits[3] = {0, 0, 0};
+  for (int k = 0; k < 3; ++k) {
+    const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), number[k]);
+    digits[k] = static_cast<std::size_t>(end - rest.data());
+    if (error != std::errc() || number[k] < 0) return "it is no date";
+    rest.remove_prefix(digits[k]);
+    if (k < 2) {
+      if (rest.empty() || std::string_view("-/. ").find(rest[0]) == std::string_view::npos) {
+        return "it is no date";
+      }
+      rest.remove_prefix(1);
+    }
+  }
+  if (!rest.empty()) return "it is no date";
+  const auto date = [](int year, int month, int day) {
+    return year_month_day{std::chrono::year(year), std::chrono::month(static_cast<unsigned>(month)),
+                          std::chrono::day(static_cast<unsigned>(day))};
+  };
+  if (digits[0] == 4) {
+    const year_month_day d = date(number[0], number[1], number[2]);
+    if (d.ok()) return "write it as " + date_text(d);
+    if (!d.year().ok() || !d.month().ok() || number[2] < 1) return "there is no such month or day";
+    const auto last = static_cast<unsigned>((d.year() / d.month() / std::chrono::last).day());
+    return "that month has " + std::to_string(last) + " days";
+  }
+  if (digits[2] != 4) return "it is no date";
+  std::string meant;
+  for (const bool day_first : {true, false}) {
+    const year_month_day d = date(number[2], number[day_first ? 1 : 0], number[day_first ? 0 : 1]);
+    if (d.ok() && meant.find(date_text(d)) == std::string::npos) {
+      meant += (meant.empty() ? "" : " or ") + date_text(d);
+    }
+  }
+  return meant.empty() ? "there is no such month or day" : "write it as " + meant;
+}
+
+Error unreadable(const std::string& entry, const std::string& why) {
   return {"the date '" + entry + "' cannot be read: " + why +
           "; write YYYY-MM-DD, a range YYYY-MM-DD..YYYY-MM-DD, or every 7th day of it "
           "YYYY-MM-DD..YYYY-MM-DD/7d, with days that exist, between the years 0001 and " +
@@ -61,9 +101,8 @@ Result<std::vector<std::string>> study_dates(const std::string& entry) {
   const std::size_t dots = rest.find("..");
   if (dots == std::string_view::npos) {
     if (!read_date(rest)) {
-      return unreadable(entry, rest.find('/') == std::string_view::npos
-                                   ? "it is no date"
-                                   : "only a range of dates has a step");
+      const bool has_step = rest.ends_with('d') && rest.find('/') != std::string_view::npos;
+      return unreadable(entry, has_step ? "only a range of dates has a step" : why_no_date(rest));
     }
     return std::vector<std::string>{entry};
   }
