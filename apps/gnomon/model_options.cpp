@@ -14,15 +14,16 @@
 namespace gnomon::app {
 namespace {
 
-// "house.glb=48.2,16.37" -> "house.glb" and "48.2,16.37"; without a file, the first is empty. A
-// PROJ string (+proj=...) and WKT hold signs of their own.
+// "house.glb=48.2,16.37" -> "house.glb" and "48.2,16.37"; without a file, the first is empty. Files
+// may have the sign in their names, so the last one counts; but PROJ strings (+proj=...) and WKT
+// hold signs of their own.
 struct ForFile {
   std::string file, value;
 };
 ForFile split(const std::string& text) {
-  const std::size_t sign = text.find('=');
-  if (sign == std::string::npos || sign == 0 || text[0] == '+' ||
-      text.find_first_of("[\"") < sign || text.find("://") < sign) {
+  const std::size_t quote = text.find('"'), plus = text.find("=+");
+  const std::size_t sign = plus != std::string::npos ? plus : text.rfind('=', quote);
+  if (sign == std::string::npos || sign == 0 || text[0] == '+' || text.find("://") < sign) {
     return {"", text};
   }
   return {text.substr(0, sign), text.substr(sign + 1)};

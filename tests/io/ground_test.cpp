@@ -25,6 +25,7 @@ std::uint32_t add_surface(Scene& s, const std::string& object, const std::string
   surface.object = object;
   surface.group = group;
   surface.semantic = semantic;
+  surface.city = true;
   s.surfaces.push_back(surface);
   return static_cast<std::uint32_t>(s.surfaces.size() - 1);
 }
@@ -416,7 +417,7 @@ TEST(Ground, DoesNotRiseToTheUpperFloorsOfADesignBesideCityObjects) {
   add_box(s, "slab", rectangle(28, -2, 42, 12, 40), 1, "", "mesh");
   for (Surface& surface : s.surfaces) {
     surface.file = surface.object == "house" ? 0 : 1;
-    if (surface.file == 1) surface.semantic.clear();
+    surface.city = surface.file == 0;
   }
   const std::size_t model = s.mesh.positions.size();
   ASSERT_TRUE(add_ground(s, {"auto", {-50, -50, 90, 60}}));

@@ -13,6 +13,7 @@
 
 #include <gnomon/core/approx.h>
 #include <gnomon/core/dyadic.h>
+#include <gnomon/io/ground.h>
 
 namespace gnomon {
 namespace {
@@ -96,12 +97,30 @@ void add_lowest(const Object& object, Footprints& out) {
 
 }  // namespace
 
-bool is_terrain(const Surface& surface) { return contains(kTerrain, surface.group); }
+bool is_terrain(const Surface& surface) {
+  if (surface.city) return contains(kTerrain, surface.group);
+  return surface.group == "TINRelief" || is_made_ground(surface);
+}
+
+bool stands_on_ground(const Surface& surface) { return !is_aloof(surface.group); }
+
+bool is_height_above_ground(const Surface& surface) {
+  return surface.city && surface.group == "HeightAboveGround";
+}
 
 int turn(const Vec3& a, const Vec3& b, const Vec3& c) {
   const Approx quick = turn_value<Approx>(a, b, c);
   return quick.certain() ? quick.sign() : turn_value<Dyadic>(a, b, c).sign();
 }
+
+namespace {
+
+bool of_several_files(const Scene& scene) {
+  return std::any_of(scene.surfaces.begin(), scene.surfaces.end(),
+                     [&](const Surface& s) { return s.file != scene.surfaces[0].file; });
+}
+
+}  // namespace
 
 Footprints find_footprints(const Scene& scene) {
   Footprints out;
@@ -109,13 +128,16 @@ Footprints find_footprints(const Scene& scene) {
   std::set<Name> grounded, grounded_parents;           // objects that have a GroundSurface
   std::set<std::uint32_t> cities;                      // files that name city objects
   for (const Surface& s : scene.surfaces) {
+    if (!s.city) continue;
     const bool ground = s.semantic == "GroundSurface";
     if (ground || contains(kCityObjects, s.group) || is_aloof(s.group)) cities.insert(s.file);
     if (!ground) continue;
     grounded.insert({s.file, s.object});
     if (s.group.ends_with("Part")) grounded_parents.insert({s.file, parent(s.object)});
   }
-  out.one_object = cities.empty();
+  // Files at sites of their own have heights of their own.
+  const bool placed = !scene.frame.crs.empty();
+  out.one_object = cities.empty() && !(placed && of_several_files(scene));
 
   // Per surface: 0 nothing, 1 closes a building from below, else 2 + index of the object it belongs
   // to.

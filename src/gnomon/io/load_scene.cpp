@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 #include <gnomon/core/exact.h>
 #include <gnomon/io/crs.h>
+#include <gnomon/io/file_place.h>
 #include <gnomon/io/load_scene.h>
 #include <gnomon/io/model.h>
 #include <gnomon/io/place_model.h>
 #include <gnomon/io/read_text.h>
+#include <gnomon/io/scene_check.h>
 #include <gnomon/io/scene_file.h>
 #include <gnomon/io/scene_ground.h>
 #include <gnomon/io/triangulate.h>
@@ -73,15 +75,6 @@ Vec3 origin_of(const ModelBox& box) {
          Vec3(0.0);  // no -0
 }
 
-// Two CRSs agree if they are the same text, or put the same point at the same place: EPSG:28992 and
-// EPSG:7415, which adds heights to it.
-bool agree(const std::string& a, const std::string& b, const Vec3& at) {
-  if (a == b) return true;
-  const auto in_a = locate(a, at), in_b = locate(b, at);
-  return in_a && in_b && in_a.value().place.latitude == in_b.value().place.latitude &&
-         in_a.value().place.longitude == in_b.value().place.longitude;
-}
-
 bool is_triangle(const Model& m, const ModelPolygon& p) {
   const std::uint32_t first = m.ring_begin[p.first_ring];
   if (p.last_ring - p.first_ring != 1 || m.ring_begin[p.last_ring] - first != 3) return false;
@@ -89,8 +82,9 @@ bool is_triangle(const Model& m, const ModelPolygon& p) {
   return c[0] != c[1] && c[1] != c[2] && c[2] != c[0];
 }
 
-// Appends the model's triangles to the scene. `file`: its number among the scene's files.
-void add_model(Scene& scene, Model& m, std::uint32_t file) {
+// Appends the model's triangles to the scene. `file`: its number among the scene's files; `city`:
+// its groups are CityJSON's words.
+void add_model(Scene& scene, Model& m, std::uint32_t file, bool city) {
   TriMesh& mesh = scene.mesh;
   const auto first_vertex = static_cast<std::uint32_t>(mesh.positions.size());
   const auto first_surface = static_cast<std::uint32_t>(scene.surfaces.size());
@@ -131,6 +125,7 @@ void add_model(Scene& scene, Model& m, std::uint32_t file) {
   }
   for (Surface& s : m.surfaces) {
     s.file = file;
+    s.city = city;
     scene.surfaces.push_back(std::move(s));
   }
   append(scene.warnings, m.warnings);
@@ -187,59 +182,14 @@ std::string names_of(const std::vector<std::filesystem::path>& paths) {
   return names;
 }
 
-// What a local file says, or is told, of its site and of true north.
-std::optional<Site> site_of(const SceneFile& f) {
-  if (f.told.site) return f.told.site;
-  if (f.model->site) return Site(*f.model->site);
-  return std::nullopt;
-}
-std::optional<double> north_of(const SceneFile& f) {
-  return f.told.north ? f.told.north : f.model->north;
-}
-
-bool is_read_first(const SceneFile& f) {
-  return f.format != FileFormat::footprints && f.format != FileFormat::raster;
-}
-
-// Footprints and heights above ground need a ground to stand on, so that all else comes first.
-bool stands_on_others(const SceneFile& f) {
-  return f.format == FileFormat::footprints || f.above_ground;
-}
-
-// The CRS of a file's coordinates: its own, or the one it is told; empty for a local model. A local
-// format that has a site is not told the CRS that is meant for the others.
-std::string crs_of(const SceneFile& f, bool others_georeferenced) {
-  if (!f.model->report.crs.empty()) return f.model->report.crs;
-  if (f.crs_of_its_own) return short_crs(f.told.crs);
-  if (!is_georeferenced(f.format) && (f.site_of_its_own || (site_of(f) && others_georeferenced))) {
-    return "";
-  }
-  return short_crs(f.told.crs);
-}
-
-// True if some file has the coordinates of a map, so that local ones have to be placed among them.
-// What is not read yet are maps.
-bool has_georeferenced(const std::vector<SceneFile>& files) {
-  return std::any_of(files.begin(), files.end(), [](const SceneFile& f) {
-    return !f.model || !f.model->report.crs.empty() || f.crs_of_its_own ||
-           (is_georeferenced(f.format) && !f.told.crs.empty());
-  });
-}
-
-// A CRS in which a scene can be: the one given, or for maps in degrees the UTM zone of the point.
-// Other models have one unit for all three axes, which cannot be degrees.
-Result<std::string> projected(const std::string& crs, const SceneFile& f, const Vec3& at) {
-  if (!is_georeferenced(f.format) || !is_geographic_crs(crs)) return crs;
-  return utm_crs(Place{at.y * kDegree, at.x * kDegree, 0});
-}
-
 // A scene under construction.
 struct Builder {
   LoadedScene loaded;
-  std::string crs;              // empty: local coordinates
-  std::optional<ModelBox> box;  // of what is in it, CRS coordinates
-  std::string first;            // the file that came first, for messages
-  bool first_is_placed = true;  // by a CRS or a site
+  std::string crs;                 // empty: local coordinates
+  std::optional<ModelBox> box;     // of what is in it, CRS coordinates
+  std::string first;               // the file that came first, for messages
+  bool first_is_placed = true;     // by a CRS or a site
+  std::size_t beside_terrain = 0;  // how often a height was asked where the terrain has none
 };
 
 // `placed`: by a CRS or a site. Of two files that are far apart, one that is not is to blame.
@@ -277,55 +227,24 @@ std::optional<Error> add_file(Builder& b, SceneFile& f, std::uint32_t number, bo
   } else {
     warn(scene.warnings, "Files without surfaces.", m.report.path);
   }
-  add_model(scene, m, number);
+  add_model(scene, m, number, is_georeferenced(f.format));
   return std::nullopt;
-}
-
-// The CRS of the scene, or none; what a raster or footprints alone have is known once they are
-// read.
-Result<std::string> scene_crs(const std::vector<SceneFile>& files, bool georeferenced) {
-  std::optional<Site> site;
-  std::optional<double> north;
-  bool differ = false;
-  for (const SceneFile& f : files) {
-    if (!f.model) continue;
-    const std::string crs = crs_of(f, georeferenced);
-    if (!crs.empty()) {
-      const auto box = box_of(*f.model);
-      return projected(crs, f, box ? (box->low + box->high) / 2.0 : Vec3(0));
-    }
-    const auto here = site_of(f);
-    if (!here) continue;
-    const double turned = north_of(f).value_or(0);
-    if (site && (here->place.latitude != site->place.latitude ||
-                 here->place.longitude != site->place.longitude || turned != *north)) {
-      differ = true;
-    }
-    if (!site) site = here, north = turned;
-  }
-  return differ ? utm_crs(site->place) : std::string();
 }
 
 // A model that is read goes to its place among the others.
 std::optional<Error> place(SceneFile& f, const Builder& b, bool georeferenced,
                            const GroundAt& ground) {
   Model& m = *f.model;
-  const std::string crs = crs_of(f, georeferenced);
+  const std::string crs = is_read_first(f) ? crs_of(f, georeferenced) : m.report.crs;
   if (!crs.empty()) {
-    if (f.site_of_its_own) {
-      return Error{fmt::format(
-          "{}: its coordinates are in {}, so that it cannot stand at a site as well; leave out its "
-          "--site.",
-          m.report.path, crs)};
-    }
     if (b.crs.empty()) return std::nullopt;
     const auto box = box_of(m);
-    if (!box || agree(crs, b.crs, (box->low + box->high) / 2.0)) {
-      m.report.placed = "coordinates of " + crs;
-      return std::nullopt;
+    if (box && !agree(crs, b.crs, (box->low + box->high) / 2.0)) {
+      m.report.placed = fmt::format("moved from {} to {}", crs, b.crs);
+      return move_to_crs(m, crs, b.crs);
     }
-    m.report.placed = fmt::format("moved from {} to {}", crs, b.crs);
-    return move_to_crs(m, crs, b.crs);
+    if (m.report.placed.empty()) m.report.placed = "coordinates of " + crs;
+    return std::nullopt;
   }
   const auto site = site_of(f);
   if (b.crs.empty() || !site) {
@@ -339,109 +258,94 @@ void tell(const LoadOptions& options, const std::string& what) {
   if (options.progress) options.progress(what);
 }
 
-// Reads and places all files, those that stand on others last.
-std::optional<Error> build(Builder& b, std::vector<SceneFile>& files, const LoadOptions& options) {
+// Rasters and footprints come in the scene's CRS, and stand on its ground. Those in local
+// coordinates at a site have to be moved there yet.
+Result<Model> read_map(const SceneFile& f, const Builder& b, bool georeferenced,
+                       const LoadOptions& options, const GroundAt& ground) {
+  if (b.crs.empty() || !crs_of(f, georeferenced).empty() || !site_of(f)) {
+    return read_model(f, options, b.crs, ground);
+  }
+  const Site site = *site_of(f);
+  const double north = north_of(f).value_or(0);
+  const auto turn = site_turn(f.path.string(), site.place, north, b.crs);
+  if (!turn) return turn.error();
+  SceneFile local = f;
+  local.told.crs.clear();
+  auto model = read_model(local, options, "",
+                          site.on_ground ? ground_from(turn.value(), ground) : GroundAt());
+  if (!model) return model;
+  // Surfaces have heights of their own, and what stands on the ground has them from it.
+  Site level = site;
+  level.on_ground = false;
+  if (auto error = place_at_site(model.value(), level, north, b.crs, {})) return *error;
+  model.value().report.crs = b.crs;
+  return model;
+}
+
+// Reads what does not wait for others, and the names of the CRSs of the rest.
+std::optional<Error> read_first(std::vector<SceneFile>& files, const LoadOptions& options) {
   for (SceneFile& f : files) {
-    if (!is_read_first(f)) continue;
+    if (!is_read_first(f)) {
+      auto crs = crs_named_by(f, options);
+      if (!crs) return crs.error();
+      f.named_crs = std::move(crs).value();
+      continue;
+    }
     tell(options, "reading " + f.path.filename().string());
     auto model = read_model(f, options, "", {});
     if (!model) return model.error();
     f.model = std::move(model).value();
+    f.named_crs = f.model->report.crs;
     if (auto error = check_coordinates(*f.model)) return error;
   }
+  return std::nullopt;
+}
+
+// Reads and places all files, those that stand on others last.
+std::optional<Error> build(Builder& b, std::vector<SceneFile>& files, const LoadOptions& options) {
+  if (auto error = read_first(files, options)) return error;
   if (auto error = check_lod(files, options)) return error;
   const bool georeferenced = has_georeferenced(files);
-  auto crs = scene_crs(files, georeferenced);
+  auto crs = scene_crs(files, options);
   if (!crs) return crs.error();
   b.crs = std::move(crs).value();
-
-  // Files that know their coordinates come first, then those that are put at a site, then those
-  // that stand on the others.
-  const auto rank = [&](const SceneFile& f) {
-    const bool local = f.model && crs_of(f, georeferenced).empty();
-    const auto site = local ? site_of(f) : std::nullopt;
-    return stands_on_others(f) || (site && site->on_ground && georeferenced) ? 2 : site ? 1 : 0;
-  };
+  const bool in_crs = georeferenced || !b.crs.empty();
   std::vector<int> ranks;
-  for (const SceneFile& f : files) ranks.push_back(rank(f));
-  for (const int now : {0, 1, 2}) {
-    const GroundAt ground = now == 2 && b.box ? ground_of(b.loaded.scene) : GroundAt();
+  for (const SceneFile& f : files) {
+    if (auto error = check_told_place(f, georeferenced, in_crs)) return error;
+    ranks.push_back(rank_of(f, georeferenced, in_crs));
+  }
+  for (int now = 0; now < kRanks; ++now) {
+    if (std::find(ranks.begin(), ranks.end(), now) == ranks.end()) continue;
+    const GroundAt ground =
+        now < kAboveGround || !b.box
+            ? GroundAt()
+            : ground_of(b.loaded.scene,
+                        now == kAboveGround ? GroundSearch::below : GroundSearch::nearest,
+                        b.beside_terrain);
     for (std::size_t k = 0; k < files.size(); ++k) {
       SceneFile& f = files[k];
       if (ranks[k] != now) continue;
+      const std::size_t beside = b.beside_terrain;
       if (!f.model) {
         tell(options, "reading " + f.path.filename().string());
-        auto model = read_model(f, options, b.crs, ground);
+        auto model = read_map(f, b, georeferenced, options, ground);
         if (!model) return model.error();
         f.model = std::move(model).value();
         if (b.crs.empty()) b.crs = f.model->report.crs;
-      } else if (b.crs.empty() && georeferenced && site_of(f)) {
-        b.crs = utm_crs(site_of(f)->place);
       }
       if (auto error = place(f, b, georeferenced, ground)) return error;
+      if (b.beside_terrain > beside) {
+        warn(b.loaded.scene.warnings,
+             "Some of what stands on the terrain has none below it; the height of the nearest was "
+             "taken.",
+             f.path.filename().string());
+      }
       const bool placed = !crs_of(f, georeferenced).empty() || site_of(f).has_value();
       if (auto error = add_file(b, f, static_cast<std::uint32_t>(k), placed)) return error;
     }
   }
   return std::nullopt;
-}
-
-// Heights above the ground that nobody calls so are taken for absolute ones, which looks right at
-// the sea.
-void warn_of_overlapping_surfaces(const std::vector<SceneFile>& files, Warnings& warnings) {
-  std::vector<std::pair<const SceneFile*, ModelBox>> surfaces;
-  for (const SceneFile& f : files) {
-    if (f.format != FileFormat::raster || f.above_ground) continue;
-    if (const auto box = box_of(*f.model)) surfaces.emplace_back(&f, *box);
-  }
-  for (std::size_t i = 0; i < surfaces.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      const ModelBox &a = surfaces[i].second, &b = surfaces[j].second;
-      const double dx = std::min(a.high.x, b.high.x) - std::max(a.low.x, b.low.x);
-      const double dy = std::min(a.high.y, b.high.y) - std::max(a.low.y, b.low.y);
-      if (dx <= 0 || dy <= 0) continue;
-      const SceneFile& lower = a.low.z < b.low.z ? *surfaces[i].first : *surfaces[j].first;
-      warn(warnings,
-           "Surface models lie over each other, all with absolute heights; if one holds heights "
-           "above the "
-           "ground, name it with --above-ground.",
-           lower.path.filename().string());
-    }
-  }
-}
-
-// A model this small, in metres, has the wrong unit: nothing is left of it at any pixel size.
-constexpr double kSmallestModel = 1e-3;
-// And one this small most likely.
-constexpr double kSmallModel = 0.5;
-
-std::optional<Error> check_size(const Builder& b, Warnings& warnings) {
-  const Vec3 size = b.box->high - b.box->low;
-  const double largest = std::max({size.x, size.y, size.z});
-  if (largest < kSmallestModel) {
-    return Error{fmt::format("{}: the model is {:.3g} m large; say its unit with --unit.", b.first,
-                             largest)};
-  }
-  if (largest < kSmallModel) {
-    warn(warnings,
-         fmt::format("The model is {:.3g} m large; if that is not so, say its unit with --unit.",
-                     largest),
-         b.first);
-  }
-  return std::nullopt;
-}
-
-// A CRS that was named for the files that name none, where all of them do.
-std::optional<Error> check_crs_used(const std::vector<SceneFile>& files, const Builder& b,
-                                    const LoadOptions& options) {
-  if (options.crs.empty()) return std::nullopt;
-  for (const SceneFile& f : files) {
-    if (f.model->report.crs.empty()) return std::nullopt;
-  }
-  const std::string given = short_crs(options.crs);
-  if (b.box && agree(given, b.crs, (b.box->low + b.box->high) / 2.0)) return std::nullopt;
-  return Error{fmt::format("{}: its CRS is {}, but --crs says {}; leave out --crs.",
-                           files[0].model->report.path, files[0].model->report.crs, given)};
 }
 
 // CRS, place and true north of the scene, whose origin is known. In a scene with a CRS, the site
@@ -451,19 +355,21 @@ std::optional<Error> place_scene(LoadedScene& loaded, const std::vector<SceneFil
                                  bool georeferenced, const LoadOptions& options) {
   Frame& frame = loaded.scene.frame;
   bool any_at_site = false;
+  std::string named_by;  // the file that the CRS is from
   for (const SceneFile& f : files) {
-    const bool local = crs_of(f, georeferenced).empty() && f.model->report.crs.empty();
+    const bool local = crs_of(f, georeferenced).empty();
     any_at_site = any_at_site || (local && site_of(f));
+    if (named_by.empty() && !local) named_by = f.path.string() + ": ";
   }
   if (!frame.crs.empty()) {
     const auto found = locate(frame.crs, frame.origin);
-    if (!found) return found.error();
+    if (!found) return Error{named_by + found.error().message};
     const CrsPlace& at = found.value();
     if (at.metres_per_unit != 1.0) {
       return Error{fmt::format(
-          "the CRS {} ({}) is not in metres (its unit is {} m), which Gnomon does not read yet; "
+          "{}the CRS {} ({}) is not in metres (its unit is {} m), which Gnomon does not read yet; "
           "reproject the model to a CRS in metres.",
-          frame.crs, at.name, at.metres_per_unit)};
+          named_by, frame.crs, at.name, at.metres_per_unit)};
     }
     frame.place = at.place;
     frame.true_north = at.true_north;
@@ -471,6 +377,13 @@ std::optional<Error> place_scene(LoadedScene& loaded, const std::vector<SceneFil
     loaded.north_by = "meridian convergence of the CRS";
     if (any_at_site) return std::nullopt;
     if (options.site) {
+      const double apart = distance_between(at.place, options.site->place);
+      if (apart > kFarthestApart) {
+        return Error{fmt::format(
+            "{}--site lies {:.0f} km from where {} puts the model; leave out --site, or check "
+            "whether latitude and longitude are swapped.",
+            named_by, apart / 1000, frame.crs)};
+      }
       frame.place = options.site->place;
       loaded.place_by = "--site";
       warn(loaded.scene.warnings,
@@ -515,21 +428,16 @@ Result<LoadedScene> load_scene(const std::vector<std::filesystem::path>& paths,
     return Error{fmt::format("{}: there are no surfaces in it, so nothing that casts a shadow.",
                              names_of(paths))};
   }
-  if (auto error = check_size(builder, scene.warnings)) return *error;
-  if (auto error = check_crs_used(files, builder, options)) return *error;
+  const bool georeferenced = has_georeferenced(files);
+  if (auto error = check_sizes(files, scene.warnings)) return *error;
+  if (auto error = check_crs_used(files, georeferenced, builder.crs, options)) return *error;
   warn_of_overlapping_surfaces(files, scene.warnings);
+  warn_of_unused_options(files, options, scene.warnings);
+  warn_of_heights(scene, files);
   scene.frame.crs = builder.crs;
-  if (auto error = place_scene(loaded, files, has_georeferenced(files), options)) return *error;
+  if (auto error = place_scene(loaded, files, georeferenced, options)) return *error;
 
-  bool any_local = false;
-  for (SceneFile& f : files) {
-    any_local = any_local || !is_georeferenced(f.format);
-    loaded.files.push_back(std::move(f.model->report));
-  }
-  if (!any_local && (options.up || !options.unit.empty())) {
-    warn(scene.warnings,
-         "--up and --unit were not used: these files say themselves what their axes are.", "");
-  }
+  for (SceneFile& f : files) loaded.files.push_back(std::move(f.model->report));
 
   tell(options, "joining vertices");
   loaded.zero_area_triangles = weld_scene(scene);

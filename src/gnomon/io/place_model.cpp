@@ -28,22 +28,36 @@ std::optional<Error> move_to_crs(Model& model, const std::string& from, const st
   return std::nullopt;
 }
 
-std::optional<Error> place_at_site(Model& model, const Site& site, double north,
-                                   const std::string& crs, const GroundAt& ground) {
+Result<SiteTurn> site_turn(const std::string& path, const Place& place, double north,
+                           const std::string& crs) {
   const auto misplaced = [&](const Error& error) {
     return Error{fmt::format(
         "{}: its site, latitude {:.6f}, longitude {:.6f}, cannot be among the other files: {}; "
-        "check "
-        "whether the two are swapped, or give another one with --site {}=LAT,LON.",
-        model.report.path, site.place.latitude / kDegree, site.place.longitude / kDegree,
-        error.message, std::filesystem::path(model.report.path).filename().string())};
+        "check whether the two are swapped, or give another one with --site {}=LAT,LON.",
+        path, place.latitude / kDegree, place.longitude / kDegree, error.message,
+        std::filesystem::path(path).filename().string())};
   };
-  const auto at = reproject("OGC:CRS84", crs,
-                            {{site.place.longitude / kDegree, site.place.latitude / kDegree}});
+  const auto at =
+      reproject("OGC:CRS84", crs, {{place.longitude / kDegree, place.latitude / kDegree}});
   if (!at) return misplaced(at.error());
   const Vec2 p = at.value()[0];
   const auto grid = locate(crs, Vec3(p, 0));
   if (!grid) return misplaced(grid.error());
+  return SiteTurn{p, grid.value().true_north - north};
+}
+
+GroundAt ground_from(const SiteTurn& at, const GroundAt& ground) {
+  if (!ground) return {};
+  return [at, ground, c = std::cos(at.turn), s = std::sin(at.turn)](double x, double y) {
+    return ground(at.at.x + x * c + y * s, at.at.y + y * c - x * s);
+  };
+}
+
+std::optional<Error> place_at_site(Model& model, const Site& site, double north,
+                                   const std::string& crs, const GroundAt& ground) {
+  const auto found = site_turn(model.report.path, site.place, north, crs);
+  if (!found) return found.error();
+  const auto [p, turn] = found.value();
 
   double height = site.place.height;
   const char* why = "as given";
@@ -54,13 +68,10 @@ std::optional<Error> place_at_site(Model& model, const Site& site, double north,
     if (!below) {
       warn(model.warnings,
            "No height is known where this model stands, so its origin is at height 0; give the "
-           "height "
-           "with --site LAT,LON,HEIGHT.",
+           "height with --site LAT,LON,HEIGHT.",
            model.report.path);
     }
   }
-  // Clockwise from the grid's +y to the model's +y.
-  const double turn = grid.value().true_north - north;
   const double c = std::cos(turn), s = std::sin(turn);
   for (Vec3& v : model.vertices) {
     const Vec3 m = v * model.scale + model.translate;
@@ -70,8 +81,7 @@ std::optional<Error> place_at_site(Model& model, const Site& site, double north,
   model.translate = Vec3(p, height);
   model.report.placed = fmt::format(
       "local origin at {:.6f}, {:.6f} ({:.3f} east, {:.3f} north in {}), height {:.2f} m {}, "
-      "turned by "
-      "{:.3f} degrees {}",
+      "turned by {:.3f} degrees {}",
       site.place.latitude / kDegree, site.place.longitude / kDegree, p.x, p.y, short_crs(crs),
       height, why, std::abs(turn) / kDegree, turn < 0 ? "anticlockwise" : "clockwise");
   return std::nullopt;

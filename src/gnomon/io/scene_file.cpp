@@ -3,8 +3,10 @@
 #include <gnomon/io/assimp_formats.h>
 #include <gnomon/io/assimp_model.h>
 #include <gnomon/io/cityjson.h>
+#include <gnomon/io/footprint_file.h>
 #include <gnomon/io/ifc_place.h>
 #include <gnomon/io/obj.h>
+#include <gnomon/io/raster_grid.h>
 #include <gnomon/io/read_text.h>
 #include <gnomon/io/scene_file.h>
 #include <gnomon/scene/select.h>
@@ -29,7 +31,10 @@ std::optional<double> metres_per(const std::string& unit) {
   return std::nullopt;
 }
 
+// The name itself goes before the pattern: a file may be called "house [1].glb".
 bool names(const std::string& glob, const std::filesystem::path& path) {
+  if (std::filesystem::path(glob).lexically_normal() == path.lexically_normal()) return true;
+  if (glob == path.filename().string()) return true;
   return glob_matches(glob, path.filename().string()) || glob_matches(glob, path.string());
 }
 
@@ -60,8 +65,8 @@ std::optional<Error> check_glob(const std::string& glob,
 
 void tell(SceneFile& file, const FileOptions& more) {
   FileOptions& told = file.told;
-  if (more.up != 0) told.up = more.up;
-  if (!more.unit.empty()) told.unit = more.unit;
+  if (more.up != 0) told.up = more.up, file.axes_of_its_own = true;
+  if (!more.unit.empty()) told.unit = more.unit, file.axes_of_its_own = true;
   if (more.north) told.north = more.north, file.north_of_its_own = true;
   if (more.site) told.site = more.site, file.site_of_its_own = true;
   if (!more.crs.empty()) told.crs = more.crs, file.crs_of_its_own = true;
@@ -132,6 +137,12 @@ Result<std::vector<SceneFile>> scene_files(const std::vector<std::filesystem::pa
     if (auto error = check_glob(glob, rasters, "--above-ground")) return *error;
   }
   return files;
+}
+
+Result<std::string> crs_named_by(const SceneFile& file, const LoadOptions& options) {
+  return file.format == FileFormat::raster
+             ? crs_of_raster_file(file.path)
+             : crs_of_footprint_file(file.path, options.footprints.layer);
 }
 
 Result<Model> read_model(const SceneFile& file, const LoadOptions& options,

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <gnomon/core/result.h>
@@ -16,10 +17,12 @@ struct SceneFile {
   std::filesystem::path path;
   FileFormat format = FileFormat::obj;
   FileOptions told;              // LoadOptions and the for_files that match
+  std::string named_crs;         // the CRS that the file names itself; empty: none
   bool site_of_its_own = false;  // told.site, told.north or told.crs come from for_files
   bool north_of_its_own = false;
   bool crs_of_its_own = false;
-  bool above_ground = false;  // a raster of heights above the ground
+  bool axes_of_its_own = false;  // told.up, told.unit
+  bool above_ground = false;     // a raster of heights above the ground
   std::optional<Model> model;
 };
 
@@ -28,6 +31,10 @@ struct SceneFile {
 // unit that is not known.
 Result<std::vector<SceneFile>> scene_files(const std::vector<std::filesystem::path>& paths,
                                            const LoadOptions& options);
+
+// The CRS that a raster or footprints name themselves, without reading more than the header; empty:
+// none. Precondition: the format is one of these.
+Result<std::string> crs_named_by(const SceneFile& file, const LoadOptions& options);
 
 // Reads the file. `target_crs` and `ground` matter to rasters and footprints alone: their models
 // come in that CRS (empty: their own, or the UTM zone), and stand on that ground.

@@ -21,6 +21,7 @@ struct Surface {
   std::string semantic;  // CityJSON semantic surface ("RoofSurface", "WallSurface", ...); "Ground"
                          // for --ground
   std::uint32_t file = 0;  // number of the file it is from; equal names in two are two objects
+  bool city = false;       // group and semantic are words of CityJSON's, not a designer's
   bool casts = true;
   bool receives = true;
 };
