@@ -21,6 +21,7 @@
 #include <glm/geometric.hpp>
 
 #include <gnomon/io/crs.h>
+#include <gnomon/io/footprint_file.h>
 #include <gnomon/io/footprints.h>
 #include <gnomon/io/osm_tags.h>
 #include <gnomon/io/triangulate.h>
@@ -687,6 +688,18 @@ TEST_F(FootprintLayer, CurvedPolygonsBecomeStraightOnes) {
   EXPECT_TRUE(watertight(m.value()));
   // A regular polygon of 90 sides (4 degrees each) in a circle of 10 m.
   EXPECT_NEAR(volume(m.value()), 6 * 0.5 * 90 * 100 * std::sin(4 * kDegree), 0.01);
+}
+
+TEST_F(FootprintLayer, TheCrsThatAFileNamesIsToldWithoutReadingIt) {
+  EXPECT_EQ(crs_of_footprint_file(write("m.geojson", collection({house("")})), "").value(),
+            "EPSG:31256");
+  EXPECT_EQ(crs_of_footprint_file(write("d.geojson", kDegrees), "").value(), "EPSG:4326");
+  make(folder_ / "n.shp", "ESRI Shapefile", {{"n", 0, kHouse}});
+  EXPECT_EQ(crs_of_footprint_file(folder_ / "n.shp", "").value(), "");
+  make(folder_ / "a.gpkg", "GPKG", {{"houses", 31256, kHouse}, {"lots", 25832, kHouse}});
+  EXPECT_EQ(crs_of_footprint_file(folder_ / "a.gpkg", "lots").value(), "EPSG:25832");
+  EXPECT_FALSE(crs_of_footprint_file(folder_ / "a.gpkg", ""));
+  EXPECT_FALSE(crs_of_footprint_file(folder_ / "none.gpkg", ""));
 }
 
 TEST_F(FootprintLayer, SeveralPolygonLayersAreListedAndOneIsChosenByName) {

@@ -426,6 +426,17 @@ TEST(SurfaceRasterFile, AnotherCrsAndAMissingOneAreTakenCareOf) {
   EXPECT_EQ(read(bare, {RasterMesh::cells}, "", "EPSG:25830").value().report.crs, "EPSG:25830");
 }
 
+TEST(SurfaceRasterFile, TheCrsThatAFileNamesIsToldWithoutReadingIt) {
+  const TestFolder dir;
+  FileOf f;
+  EXPECT_EQ(crs_of_raster_file(write(dir / "a.tif", 1, 1, {1}, f)).value(), "EPSG:25830");
+  f.crs = "EPSG:7415";  // with heights; a CRS names the horizontal part
+  EXPECT_EQ(crs_of_raster_file(write(dir / "b.tif", 1, 1, {1}, f)).value(), "EPSG:28992");
+  f.crs = "";
+  EXPECT_EQ(crs_of_raster_file(write(dir / "c.tif", 1, 1, {1}, f)).value(), "");
+  EXPECT_FALSE(crs_of_raster_file(dir / "none.tif"));
+}
+
 TEST(SurfaceRasterFile, RefusalsSayWhatToDo) {
   const TestFolder dir;
   FileOf f;

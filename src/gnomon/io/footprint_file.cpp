@@ -16,6 +16,7 @@
 #include <optional>
 #include <set>
 
+#include <gnomon/io/gdal_support.h>
 #include <gnomon/io/osm_tags.h>
 #include <gnomon/io/read_text.h>
 
@@ -60,16 +61,12 @@ class GdalMessages {
   }
 };
 
-struct CloseDataset {
-  void operator()(void* dataset) const { GDALClose(dataset); }
-};
 struct DestroyFeature {
   void operator()(void* feature) const { OGR_F_Destroy(static_cast<OGRFeatureH>(feature)); }
 };
 struct DestroyGeometry {
   void operator()(void* g) const { OGR_G_DestroyGeometry(static_cast<OGRGeometryH>(g)); }
 };
-using Dataset = std::unique_ptr<void, CloseDataset>;
 using Feature = std::unique_ptr<std::remove_pointer_t<OGRFeatureH>, DestroyFeature>;
 using Geometry = std::unique_ptr<std::remove_pointer_t<OGRGeometryH>, DestroyGeometry>;
 
@@ -178,37 +175,28 @@ Result<OGRLayerH> choose_layer(GDALDatasetH dataset, const std::string& path,
                   path, all.empty() ? "" : " (its layers: " + listed(all) + ")")};
 }
 
-// CRS of the layer, and whether its coordinates are stored north first.
-bool read_crs(OGRLayerH layer, FootprintFile& file) {
+struct LayerCrs {
+  std::string name;            // empty: none
+  double metres_per_unit = 1;  // where there is no name but a unit
+  bool swapped = false;        // coordinates are stored north first
+};
+
+LayerCrs crs_of(OGRLayerH layer) {
   const OGRSpatialReferenceH own = OGR_L_GetSpatialRef(layer);
-  if (!own) return false;
-  const char* const own_name = OSRGetName(own);
+  LayerCrs out;
+  if (!own) return out;
+  OGRSpatialReference crs = *OGRSpatialReference::FromHandle(own);
+  if (crs.IsLocal()) out.metres_per_unit = crs.GetLinearUnits();
   // GeoPackage says so of layers of unknown place.
+  const char* const own_name = crs.GetName();
   const bool undefined = own_name && std::string_view(own_name).starts_with("Undefined ");
-  if (undefined || OSRIsLocal(own)) {
-    if (OSRIsLocal(own)) file.metres_per_unit = OSRGetLinearUnits(own, nullptr);
-    return false;
-  }
-  int count = 0;
-  const int* own_axes = OSRGetDataAxisToSRSAxisMapping(own, &count);
-  const std::vector<int> stored(own_axes, own_axes + count);
-  const OGRSpatialReferenceH srs = OSRClone(own);
-  OSRSetAxisMappingStrategy(srs, OAMS_TRADITIONAL_GIS_ORDER);
-  const int* axes = OSRGetDataAxisToSRSAxisMapping(srs, &count);
-  const bool swapped = count >= 2 && stored.size() >= 2 && stored[0] != axes[0];
-  if (OSRIsCompound(srs)) OSRStripVertical(srs);
-  const char* const authority = OSRGetAuthorityName(srs, nullptr);
-  const char* const code = OSRGetAuthorityCode(srs, nullptr);
-  if (authority && code) {
-    file.crs = fmt::format("{}:{}", authority, code);
-  } else {
-    const std::array<const char*, 2> options = {"FORMAT=WKT2", nullptr};
-    char* wkt = nullptr;
-    if (OSRExportToWktEx(srs, &wkt, options.data()) == OGRERR_NONE && wkt) file.crs = wkt;
-    CPLFree(wkt);
-  }
-  OSRDestroySpatialReference(srs);
-  return swapped;
+  if (undefined || crs.IsLocal()) return out;
+  const std::vector<int> stored = crs.GetDataAxisToSRSAxisMapping();
+  crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  const std::vector<int> axes = crs.GetDataAxisToSRSAxisMapping();
+  out.swapped = axes.size() >= 2 && stored.size() >= 2 && stored[0] != axes[0];
+  out.name = name_of_crs(std::move(crs));
+  return out;
 }
 
 // Adds the polygons of a geometry, deep inside too.
@@ -310,6 +298,16 @@ std::string listed(const std::vector<std::string>& names, std::size_t most) {
   return out;
 }
 
+Result<std::string> crs_of_footprint_file(const std::filesystem::path& path,
+                                          const std::string& layer) {
+  const GdalMessages messages;
+  const auto dataset = open(path, messages);
+  if (!dataset) return dataset.error();
+  const auto chosen = choose_layer(dataset.value().get(), path.string(), layer);
+  if (!chosen) return chosen.error();
+  return crs_of(chosen.value()).name;
+}
+
 Result<FootprintFile> read_footprint_file(const std::filesystem::path& path,
                                           const std::string& layer_name,
                                           const std::vector<std::string>& wanted_names) {
@@ -328,7 +326,9 @@ Result<FootprintFile> read_footprint_file(const std::filesystem::path& path,
   }
   file.layer = OGR_L_GetName(layer);
   file.several_layers = GDALDatasetGetLayerCount(dataset.get()) > 1;
-  const bool swapped = read_crs(layer, file);
+  const LayerCrs crs = crs_of(layer);
+  file.crs = crs.name;
+  file.metres_per_unit = crs.metres_per_unit;
 
   std::vector<std::string> wanted = wanted_names;
   wanted.insert(wanted.end(), kIds.begin(), kIds.end());
@@ -355,7 +355,7 @@ Result<FootprintFile> read_footprint_file(const std::filesystem::path& path,
     name_feature(feature);
     const OGRGeometryH geometry = OGR_F_GetGeometryRef(source.get());
     feature.has_geometry = geometry && !OGR_G_IsEmpty(geometry);
-    if (feature.has_geometry) add_polygons(geometry, swapped, feature);
+    if (feature.has_geometry) add_polygons(geometry, crs.swapped, feature);
   }
   if (messages.failure) {
     return Error{fmt::format(

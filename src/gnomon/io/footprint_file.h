@@ -37,6 +37,12 @@ struct FootprintFile {
   Warnings warnings;
 };
 
+// The CRS that a file names itself for the layer (as for read_footprint_file), as
+// FootprintFile::crs has it; features are not read, but GDAL parses a GeoJSON file whole to open
+// it. Errors: as read_footprint_file.
+Result<std::string> crs_of_footprint_file(const std::filesystem::path& path,
+                                          const std::string& layer);
+
 // Reads a layer. `wanted`: names of attributes to keep, in lower case. Attributes named tags,
 // other_tags or all_tags are taken apart (osm_tags.h); an attribute of the feature itself goes
 // before a tag of the same name. Curves become lines (4 degrees a step). Never opens anything but

@@ -25,6 +25,18 @@ Result<std::optional<OGRSpatialReference>> horizontal_crs(const Frame& frame,
   return std::optional<OGRSpatialReference>(std::move(crs));
 }
 
+std::string name_of_crs(OGRSpatialReference crs) {
+  if (crs.IsCompound()) crs.StripVertical();
+  const char *authority = crs.GetAuthorityName(nullptr), *code = crs.GetAuthorityCode(nullptr);
+  if (authority && code) return fmt::format("{}:{}", authority, code);
+  const char* const options[] = {"FORMAT=WKT2_2019", nullptr};
+  char* text = nullptr;
+  std::string wkt;
+  if (crs.exportToWkt(&text, options) == OGRERR_NONE && text) wkt = text;
+  CPLFree(text);
+  return wkt;
+}
+
 double units_per_metre(const std::optional<OGRSpatialReference>& crs) {
   return crs && crs->IsProjected() ? 1.0 / crs->GetLinearUnits() : 1.0;
 }

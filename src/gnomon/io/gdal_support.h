@@ -66,6 +66,10 @@ Result<std::optional<OGRSpatialReference>> horizontal_crs(const Frame& frame,
                                                           const std::filesystem::path& path,
                                                           const GdalErrors& errors);
 
+// The horizontal part of a CRS as "EPSG:25830" (or another authority's code) where it has a code,
+// else WKT.
+std::string name_of_crs(OGRSpatialReference crs);
+
 // Units of a file's coordinates in a metre: scene coordinates are metres, a file's are in its CRS's
 // own unit.
 double units_per_metre(const std::optional<OGRSpatialReference>& crs);

@@ -75,19 +75,6 @@ std::optional<double> metres_per(const std::string& unit) {
   return {};
 }
 
-// "EPSG:25830" where the CRS has such a code, else WKT.
-std::string name_of_crs(OGRSpatialReference crs) {
-  if (crs.IsCompound()) crs.StripVertical();
-  const char *authority = crs.GetAuthorityName(nullptr), *code = crs.GetAuthorityCode(nullptr);
-  if (authority && code && std::string(authority) == "EPSG") return std::string("EPSG:") + code;
-  char* text = nullptr;
-  const char* const options[] = {"FORMAT=WKT2_2019", nullptr};
-  std::string wkt;
-  if (crs.exportToWkt(&text, options) == OGRERR_NONE && text) wkt = text;
-  CPLFree(text);
-  return wkt;
-}
-
 // Metres that one unit of the band's heights is.
 double height_unit(const std::filesystem::path& path, GDALRasterBandH band,
                    const OGRSpatialReference* crs, Warnings& warnings) {
@@ -176,6 +163,40 @@ std::optional<Error> finish_values(const std::filesystem::path& path, RasterGrid
   return {};
 }
 
+Result<Dataset> open(const std::filesystem::path& path, const GdalErrors& errors) {
+  std::error_code ignored;
+  // A name that is no file may still mean something to GDAL: "/vsicurl/http://...".
+  if (!std::filesystem::is_regular_file(path, ignored)) {
+    return refuse(path, "there is no such file; check the name.");
+  }
+  if (lower(path.extension().string()) == ".vrt") {
+    return refuse(path,
+                  "a VRT only names other files and is not read; make one file of it with "
+                  "'gdal_translate in.vrt out.tif'.");
+  }
+  register_drivers();
+  const std::string whole_path = std::filesystem::absolute(path).string();
+  Dataset dataset(GDALOpenEx(whole_path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, kDrivers,
+                             nullptr, nullptr));
+  if (dataset) return dataset;
+  return refuse(path,
+                fmt::format("it cannot be read as a raster ({}); GeoTIFF, ASCII grid (.asc), "
+                            "Erdas Imagine, DTED, SRTM (.hgt), USGS (.dem), ESRI (.bil, .flt) "
+                            "and Surfer grids are read.",
+                            errors.first().value_or("no driver knows its content")));
+}
+
+std::optional<OGRSpatialReference> crs_of(GDALDatasetH dataset) {
+  const OGRSpatialReferenceH named = GDALGetSpatialRef(dataset);
+  if (!named) return {};
+  return *OGRSpatialReference::FromHandle(named);
+}
+
+std::string name_in_file(const std::optional<OGRSpatialReference>& crs) {
+  // A "local" CRS (engineering) says no more than that there is none.
+  return crs && !crs->IsEmpty() && !crs->IsLocal() ? name_of_crs(*crs) : std::string();
+}
+
 }  // namespace
 
 bool is_raster_file(const std::filesystem::path& path, std::string_view first_bytes) {
@@ -198,31 +219,20 @@ bool is_raster_file(const std::filesystem::path& path, std::string_view first_by
   return false;
 }
 
+Result<std::string> crs_of_raster_file(const std::filesystem::path& path) {
+  const GdalErrors errors;
+  const auto dataset = open(path, errors);
+  if (!dataset) return dataset.error();
+  return name_in_file(crs_of(dataset.value().get()));
+}
+
 Result<RasterGrid> read_raster_grid(
     const std::filesystem::path& path, int number, const std::string& fallback_crs,
     const std::function<Result<RasterWindow>(const RasterGrid&)>& window, Warnings& warnings) {
-  std::error_code ignored;
-  // A name that is no file may still mean something to GDAL: "/vsicurl/http://...".
-  if (!std::filesystem::is_regular_file(path, ignored)) {
-    return refuse(path, "there is no such file; check the name.");
-  }
-  if (lower(path.extension().string()) == ".vrt") {
-    return refuse(path,
-                  "a VRT only names other files and is not read; make one file of it with "
-                  "'gdal_translate in.vrt out.tif'.");
-  }
-  register_drivers();
   GdalErrors errors;
-  const std::string whole_path = std::filesystem::absolute(path).string();
-  const Dataset dataset(GDALOpenEx(whole_path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, kDrivers,
-                                   nullptr, nullptr));
-  if (!dataset) {
-    return refuse(path,
-                  fmt::format("it cannot be read as a raster ({}); GeoTIFF, ASCII grid (.asc), "
-                              "Erdas Imagine, DTED, SRTM (.hgt), USGS (.dem), ESRI (.bil, .flt) "
-                              "and Surfer grids are read.",
-                              errors.first().value_or("no driver knows its content")));
-  }
+  auto opened = open(path, errors);
+  if (!opened) return opened.error();
+  const Dataset dataset = std::move(opened).value();
   const int bands = GDALGetRasterCount(dataset.get());
   if (number < 1 || number > bands) {
     return refuse(path, fmt::format("there is no band {}; it has {}.", number, bands));
@@ -246,12 +256,8 @@ Result<RasterGrid> read_raster_grid(
                     "as 'gdal_translate -a_srs EPSG:25832 -a_ullr WEST NORTH EAST SOUTH in.tif "
                     "out.tif' does, or a world file beside it.");
   }
-  std::optional<OGRSpatialReference> crs;
-  if (const OGRSpatialReferenceH named = GDALGetSpatialRef(dataset.get())) {
-    crs = *OGRSpatialReference::FromHandle(named);
-    // A "local" CRS (engineering) says no more than that there is none.
-    if (!crs->IsEmpty() && !crs->IsLocal()) grid.crs = name_of_crs(*crs);
-  }
+  const std::optional<OGRSpatialReference> crs = crs_of(dataset.get());
+  grid.crs = name_in_file(crs);
   if (grid.crs.empty()) grid.crs = fallback_crs;
   if (auto error = check_placed(path, grid)) return *error;
 

@@ -43,6 +43,10 @@ struct RasterWindow {
 // refused. `first_bytes`: the file's beginning, 32 bytes or more if it has them.
 bool is_raster_file(const std::filesystem::path& path, std::string_view first_bytes);
 
+// The CRS that a file names itself, as RasterGrid::crs has it; its cells are not read. Errors: not
+// a raster or one of a kind that is not read, a VRT.
+Result<std::string> crs_of_raster_file(const std::filesystem::path& path);
+
 // Reads band `band` (1 the first) of a file on disk. fallback_crs: what its coordinates are in
 // where it names no CRS (may be empty); it becomes grid.crs. `window` is given the grid without its
 // values and says which cells are wanted; it may refuse. Values get the band's scale and offset and
