@@ -321,7 +321,7 @@ std::optional<Error> place(SceneFile& f, const Builder& b, bool georeferenced,
     if (b.crs.empty()) return std::nullopt;
     const auto box = box_of(m);
     if (!box || agree(crs, b.crs, (box->low + box->high) / 2.0)) {
-      m.report.placed = "coordinates of " + crs;
+      if (m.report.placed.empty()) m.report.placed = "coordinates of " + crs;
       return std::nullopt;
     }
     m.report.placed = fmt::format("moved from {} to {}", crs, b.crs);
