@@ -113,12 +113,14 @@ void add_footprints(CLI::App& command, FootprintOptions& footprints) {
       ->group(kGroup);
   command
       .add_option("--height-attribute", footprints.height,
-                  "Attribute with the height above the ground in metres (default: the usual names)")
+                  "Attribute with the height above the ground in metres, in place of the usual "
+                  "names (height, building:height, ...)")
       ->type_name("NAME")
       ->group(kGroup);
   command
       .add_option("--floors-attribute", footprints.floors,
-                  "Attribute with the number of floors (default: the usual names)")
+                  "Attribute with the number of floors, in place of the usual names "
+                  "(building:levels, ...)")
       ->type_name("NAME")
       ->group(kGroup);
   command.add_option("--floor-height", footprints.floor_height, "Metres per floor")

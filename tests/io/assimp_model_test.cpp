@@ -65,6 +65,20 @@ TEST_F(Assimp, OneMeshUnderManyNodesStandsInAllPlaces) {
   EXPECT_NEAR(std::fabs(corners_of(m, 1)[0].x - corners_of(m, 0)[0].x), 5, 1e-6);
 }
 
+TEST_F(Assimp, ColladaInstancesOfWhatIsNotThereAreCounted) {
+  const std::string more =
+      R"(<node id="m" name="More"><instance_geometry url="#wing"/><instance_controller url="#rig"/>)"
+      R"(<instance_node url='#tower'/><instance_node url="#n"/>)"
+      R"(<!-- <instance_geometry url="#commented"/> --></node>)";
+  const Model m = read("t.dae", collada("Z_UP", kPositions, kIndices, kHouse + more));
+  EXPECT_GE(m.polygons.size(), 1u);
+  ASSERT_EQ(warned(m, "Instances of what is not in the file"), 3u);
+  EXPECT_TRUE(m.warnings[0].first.ends_with("t.dae: <instance_geometry url=\"#wing\">"))
+      << m.warnings[0].first;
+  const Model whole = read("t.dae", collada("Z_UP", kPositions, kIndices, kHouse));
+  EXPECT_EQ(warned(whole, "Instances of what"), 0u);
+}
+
 TEST_F(Assimp, DigitsBeyondSinglePrecisionAreWarnedOf) {
   // 2684572.43 in single precision is 2684572.5: 0.07 of the file's centimetres are lost.
   const Model lost = read(

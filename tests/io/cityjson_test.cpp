@@ -222,6 +222,39 @@ TEST(CityJson, EachObjectGivesItsHighestLod) {
   EXPECT_TRUE(m.warnings.empty());
 }
 
+TEST(CityJson, EmptyGeometryOfAHigherLodLeavesTheLowerOne) {
+  const std::string good = geometry("MultiSurface", kShell, R"(,"lod":"1")");
+  for (const auto& [type, empty] : {std::pair("MultiSurface", "[]"),
+                                    {"MultiSurface", "[[]]"},
+                                    {"Solid", "[[]]"},
+                                    {"MultiSolid", "[[[]]]"}}) {
+    const Model m = read(document(building(good + "," + geometry(type, empty, R"(,"lod":"2.2")"))));
+    EXPECT_EQ(m.polygons.size(), 6u) << type << empty;
+    EXPECT_EQ(m.report.lod_used, "1");
+    EXPECT_TRUE(m.warnings.empty());
+  }
+}
+
+TEST(CityJson, ObjectsWithoutSurfacesAreCountedButNotWholesWhosePartsHaveThem) {
+  const std::string surface = geometry("MultiSurface", "[[[0,1,2]]]");
+  const Model m = read(document(
+      building(surface) +
+      R"(,"E":{"type":"Building","geometry":[]},"N":{"type":"Building"},)"
+      R"("W":{"type":"Building","geometry":[],"children":["P","Q"]},)"
+      R"("P":{"type":"BuildingPart","parents":["W"],"geometry":[)" +
+      surface + R"(]},"Q":{"type":"BuildingPart","parents":["W"],"geometry":[)" +
+      geometry("Solid", "[]") +
+      R"(]},"T":{"type":"SolitaryVegetationObject","geometry":[{"type":"MultiPoint","boundaries":[0],"lod":"1"}]},)"
+      R"("G":{"type":"CityObjectGroup","children":["B"]})"));
+  EXPECT_EQ(m.polygons.size(), 2u);
+  EXPECT_TRUE(warns(m, "Objects without surfaces", 3));  // E, N and Q; T is a point
+  for (const Warning& w : m.warnings) {
+    if (w.what.find("without surfaces") != std::string::npos) {
+      EXPECT_EQ(w.first, "t.json: object \"E\"");
+    }
+  }
+}
+
 TEST(CityJson, AnLodAskedForIsTheOnlyOneTaken) {
   const std::string text =
       document(R"("A":{"type":"Building","geometry":[)" +

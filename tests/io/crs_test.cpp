@@ -195,5 +195,12 @@ TEST(Crs, RefusesPointsFarOutsideAndNamesWhereTheyWouldLie) {
   refusal("EPSG:32633", std::nan(""), 0);
 }
 
+TEST(Crs, HasANameForPeople) {
+  EXPECT_EQ(crs_in_words("urn:ogc:def:crs:EPSG::7415"), "EPSG:7415");
+  EXPECT_EQ(crs_in_words(R"(PROJCRS["Site grid",BASEGEOGCRS["x"]])"), "\"Site grid\"");
+  EXPECT_EQ(crs_in_words("+proj=utm +zone=33"), "+proj=utm +zone=33");
+  EXPECT_EQ(crs_in_words("PROJCRS["), "PROJCRS[");
+}
+
 }  // namespace
 }  // namespace gnomon

@@ -59,6 +59,19 @@ TEST_F(Gltf, NestedNodesComposeInDoubleAndNameTheirPath) {
   EXPECT_EQ(m.surfaces[1].object, "site/shed");
 }
 
+TEST_F(Gltf, NodesOutsideTheDefaultSceneAreCounted) {
+  Triangle t;
+  write("t.bin", t.bin());
+  t.json["scenes"] = Json::parse(R"([{"nodes": [0]}, {"nodes": [2]}])");
+  t.json["nodes"] = Json::parse(
+      R"([{"name": "house", "mesh": 0}, {"name": "shed", "mesh": 0},
+          {"name": "winter", "children": [3]}, {"mesh": 0}])");
+  const Model m = read("t.gltf", t.json.dump());
+  EXPECT_EQ(m.polygons.size(), 1u);
+  ASSERT_EQ(warned(m, "outside the file's default scene"), 2u);
+  EXPECT_TRUE(m.warnings[0].first.ends_with("t.gltf: node 1 \"shed\"")) << m.warnings[0].first;
+}
+
 TEST_F(Gltf, MatrixAndTrsMeanTheSame) {
   Triangle t;
   write("t.bin", t.bin());

@@ -125,6 +125,17 @@ TEST(Obj, PointsLinesAndFreeFormAreLeftOutWithWarnings) {
   EXPECT_EQ(m.warnings[1].count, 1u);
 }
 
+TEST(Obj, UnknownStatementsAreCountedAndKnownOnesAreNot) {
+  const Model m = read(kFour + "f 1 2 3\ncall wing.obj\nvertex 1 2 3\n");
+  ASSERT_EQ(m.warnings.size(), 1u);
+  EXPECT_EQ(m.warnings[0].count, 2u);
+  EXPECT_EQ(m.warnings[0].first, "t.obj: line 6: \"call\"");
+  const Model known = read("# comment\n#comment\nmtllib a.mtl\n" + kFour +
+                           "vt 0 0\nvn 0 0 1\nvp 0\no a\ng b\ns off\nusemtl c\nusemap d\nmg 1\n"
+                           "lod 3\nbevel on\nmaplib e\nshadow_obj f.obj\n   \n\t\nf 1 2 3\nend\n");
+  EXPECT_TRUE(known.warnings.empty()) << known.warnings[0].first;
+}
+
 TEST(Obj, WhatTinyobjloaderWouldReadAsZeroIsAnError) {
   expect_failure("v 0 0 0\nv 1 nan 0\n", "2", "y coordinate \"nan\"");
   expect_failure("v 0 0 inf\n", "1", "z coordinate \"inf\"");

@@ -396,28 +396,13 @@ TEST(SurfaceRasterFile, ValuesThatAreNoHeightsNameTheirCell) {
   }
 }
 
-TEST(SurfaceRasterFile, BoundsCropToTheCellsAroundThem) {
-  const TestFolder dir;
-  std::vector<double> z(100);
-  for (std::size_t k = 0; k < 100; ++k) z[k] = static_cast<double>(k);
-  RasterOptions o{RasterMesh::cells};
-  o.bounds = Bounds2{500008.5, 4799990.5, 500009.5, 4799991.5};  // within column 4, row 4
-  const auto path = write(dir / "a.tif", 10, 10, z);
-  const Model m = read(path, o).value();
-  EXPECT_EQ(covered(m), 9 * 4.0);
-  double low = 1e9;
-  for (const Vec3& v : m.vertices) low = std::min(low, v.z);
-  EXPECT_EQ(low, 33.0);
-  EXPECT_EQ(m.translate, Vec3(500006, 4799994, 0));
-  o.bounds = Bounds2{600000, 4799990, 600001, 4799991};
-  EXPECT_TRUE(has(refusal(path, o), "none of it lies within"));
-}
-
 TEST(SurfaceRasterFile, AnotherCrsAndAMissingOneAreTakenCareOf) {
   const TestFolder dir;
   const auto path = write(dir / "a.tif", 2, 2, {1, 2, 3, 4});
   const Model moved = read(path, {RasterMesh::cells}, "EPSG:25829").value();
   EXPECT_EQ(moved.report.crs, "EPSG:25829");
+  EXPECT_EQ(moved.report.placed, "moved from EPSG:25830 to EPSG:25829");
+  EXPECT_EQ(read(path).value().report.placed, "");
   EXPECT_NEAR(covered(moved), 16.0, 0.1);
   FileOf f;
   f.crs = "";
@@ -448,9 +433,6 @@ TEST(SurfaceRasterFile, RefusalsSayWhatToDo) {
   EXPECT_TRUE(has(refusal(dir / "a.vrt"), "gdal_translate"));
   std::filesystem::copy_file(dir / "a.vrt", dir / "b.tif");
   EXPECT_TRUE(has(refusal(dir / "b.tif"), "cannot be read as a raster"));
-  RasterOptions second{RasterMesh::cells};
-  second.band = 2;
-  EXPECT_TRUE(has(refusal(write(dir / "c.tif", 1, 1, {1}), second), "no band 2"));
   f.type = GDT_CFloat32;
   EXPECT_TRUE(has(refusal(write(dir / "d.tif", 1, 1, {1}, f)), "complex"));
   f = {};
@@ -459,7 +441,17 @@ TEST(SurfaceRasterFile, RefusalsSayWhatToDo) {
   f = {};
   f.type = GDT_Byte;
   f.bands = 3;  // GDAL calls three bands of bytes red, green and blue
-  EXPECT_TRUE(has(refusal(write(dir / "f.tif", 1, 1, {1}, f)), "picture"));
+  const std::string why = refusal(write(dir / "f.tif", 1, 1, {1}, f));
+  EXPECT_TRUE(has(why, "picture") && has(why, "gdal_translate -b N")) << why;
+}
+
+TEST(SurfaceRasterFile, OfSeveralBandsTheFirstIsReadAndTheWayToAnotherIsTold) {
+  const TestFolder dir;
+  FileOf f;
+  f.bands = 2;  // the second one gets the values, the first one is 0
+  const Model m = read(write(dir / "a.tif", 1, 1, {7}, f)).value();
+  EXPECT_EQ(m.vertices[0].z, 0.0);
+  EXPECT_EQ(warned(m, "gdal_translate -b N"), 1u);
 }
 
 TEST(SurfaceRasterFile, ATruncatedFileIsAnErrorNotAHole) {

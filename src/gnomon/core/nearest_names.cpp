@@ -1,3 +1,4 @@
+#include <gnomon/core/lower_case.h>
 #include <gnomon/core/nearest_names.h>
 
 #include <algorithm>
@@ -7,14 +8,6 @@
 
 namespace gnomon {
 namespace {
-
-std::string lower(std::string_view text) {
-  std::string out(text);
-  for (char& c : out) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return out;
-}
 
 // Levenshtein: insertions, deletions and replacements that make b of a.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -35,11 +28,11 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 std::string nearest_names(std::string_view wanted_name, const std::set<std::string_view>& names,
                           std::size_t most) {
-  std::string wanted = lower(wanted_name);
+  std::string wanted = lower_case(wanted_name);
   std::erase_if(wanted, [](char c) { return c == '*' || c == '?'; });
   std::vector<std::pair<std::size_t, std::string_view>> ranked;
   for (const std::string_view name : names) {
-    const std::string low = lower(name);
+    const std::string low = lower_case(name);
     const bool inside = !wanted.empty() && low.find(wanted) != std::string::npos;
     ranked.emplace_back(inside ? 0 : edit_distance(wanted, low), name);
   }

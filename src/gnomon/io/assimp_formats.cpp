@@ -1,3 +1,4 @@
+#include <gnomon/core/lower_case.h>
 #include <gnomon/io/assimp_formats.h>
 
 #include <array>
@@ -37,8 +38,7 @@ constexpr std::array<MeshFormat, 20> kFormats = {{
 }  // namespace
 
 const MeshFormat* mesh_format(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+  const std::string extension = lower_case(path.extension().string());
   for (const MeshFormat& f : kFormats) {
     if (extension == f.extension) return &f;
   }

@@ -7,6 +7,7 @@
 #include <gnomon/io/assimp_formats.h>
 #include <gnomon/io/assimp_model.h>
 #include <gnomon/io/assimp_scene.h>
+#include <gnomon/io/collada_links.h>
 #include <gnomon/io/digits.h>
 #include <gnomon/io/gltf.h>
 #include <gnomon/io/mesh_text.h>
@@ -223,6 +224,13 @@ Result<Model> read_with_assimp(const std::string& path, std::string_view bytes,
   }
   if (const std::uint32_t frames = frames_of(format, bytes); frames > 1) {
     warn(model.warnings, "Frames after the first were left out.", path, frames - 1);
+  }
+  if (format.reader == MeshReader::kDae) {
+    const BrokenLinks broken = broken_links_of_collada(bytes);
+    warn(model.warnings,
+         "Instances of what is not in the file were left out; export the model again, whole and in "
+         "one file.",
+         fmt::format("{}: {}", path, broken.first), broken.count);
   }
   warn_of_lost_digits(model, format, bytes, text_unit(format, bytes));
   std::set<std::string_view> objects;

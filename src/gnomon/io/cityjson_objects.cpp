@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <map>
+#include <set>
 #include <utility>
 
 namespace gnomon::cityjson {
@@ -26,10 +27,11 @@ struct Candidate {
 };
 
 struct Object {
-  std::string name;  // "parent/part"
-  std::string root;  // id of the outermost parent
+  std::string name;                // "parent/part"
+  std::vector<std::string> chain;  // ids from the outermost parent to the object
   std::string type;
   std::vector<Candidate> candidates;
+  bool is_warned_of = false;  // as having something that was left out
   const Candidate* highest() const {
     const auto at = std::max_element(
         candidates.begin(), candidates.end(),
@@ -57,9 +59,18 @@ void name_object(const Json& objects, const std::string& id, Object& object) {
     chain.push_back(parent);
     at = member(&objects, parent.c_str());
   }
-  object.root = chain.back();
   std::reverse(chain.begin(), chain.end());
   object.name = fmt::format("{}", fmt::join(chain, "/"));
+  object.chain = std::move(chain);
+}
+
+// False where there is no polygon in the boundaries, or none that has a ring. What is no list
+// counts as one: reading it says what is wrong with it.
+bool holds_polygons(const Json& boundaries, int depth) {
+  if (!boundaries.is_array()) return true;
+  if (depth == 0) return !boundaries.empty();
+  return std::any_of(boundaries.begin(), boundaries.end(),
+                     [&](const Json& b) { return holds_polygons(b, depth - 1); });
 }
 
 // Type, name and geometries with surfaces of one city object.
@@ -81,12 +92,15 @@ bool list_geometries(Reading& reading, const Json& json, Object& object) {
     if (type == "MultiPoint" || type == "MultiLineString") {
       warn(reading.builder.model.warnings, "Points and lines cast no shadow and were left out.",
            fmt::format("{}: {}, geometry {}", reading.path, where, k));
+      object.is_warned_of = true;
       continue;
     }
     if (!instance && depth_of(type) == 0) {  // reading an instance says what is wrong with it
       return reading.fail(fmt::format("{}, geometry {}: CityJSON has no geometry of type {}.",
                                       where, k, in_quotes(type)));
     }
+    const Json* boundaries = member(source, "boundaries");
+    if (boundaries && !holds_polygons(*boundaries, depth_of(type))) continue;
     Candidate candidate{&geometry, k, lod_of(member(source, "lod"))};
     reading.lods.insert(candidate.lod);
     object.candidates.push_back(std::move(candidate));
@@ -138,22 +152,34 @@ bool read_objects(Reading& reading, const Json& json) {
   // than flat.
   std::vector<Object> list;
   std::map<std::string, bool> served;
+  std::set<std::string> with_surfaces;  // ids: of objects with candidates, and of their parents
   for (const auto& [id, object_json] : objects->items()) {
     Object object;
     name_object(*objects, id, object);
     if (!list_geometries(reading, object_json, object)) return false;
     for (const Candidate& c : object.candidates) {
-      if (wanted(object, c) && (!reading.lod.empty() || !flat(c.lod))) served[object.root] = true;
+      if (wanted(object, c) && (!reading.lod.empty() || !flat(c.lod)))
+        served[object.chain.front()] = true;
+    }
+    if (!object.candidates.empty()) {
+      with_surfaces.insert(object.chain.begin(), object.chain.end());
     }
     list.push_back(std::move(object));
   }
 
   Warnings& warnings = reading.builder.model.warnings;
   for (const Object& object : list) {
-    if (object.candidates.empty()) continue;
     const std::string element =
         fmt::format("{}: object {}", reading.path, in_quotes(object.name, 200));
-    const bool others_serve = served.count(object.root) > 0;
+    if (object.candidates.empty()) {
+      // Of groups and of wholes whose parts have them, no surfaces are asked for.
+      if (!object.is_warned_of && object.type != "CityObjectGroup" &&
+          !with_surfaces.contains(object.chain.back())) {
+        warn(warnings, "Objects without surfaces, also in their parts, cast no shadow.", element);
+      }
+      continue;
+    }
+    const bool others_serve = served.count(object.chain.front()) > 0;
     ObjectPolygons polygons(reading.builder);
     bool any = false, any_flat = false;
     for (const Candidate& c : object.candidates) {

@@ -248,6 +248,15 @@ std::string short_crs(const std::string& crs) {
   return crs;
 }
 
+std::string crs_in_words(const std::string& crs) {
+  const std::size_t bracket = crs.find_first_of("[(");  // WKT: PROJCRS["name",...
+  if (bracket == std::string::npos || crs.compare(bracket + 1, 1, "\"") != 0) {
+    return short_crs(crs);
+  }
+  const std::size_t end = crs.find('"', bracket + 2);
+  return end == std::string::npos ? crs : crs.substr(bracket + 1, end - bracket);
+}
+
 bool is_geographic_crs(const std::string& crs) {
   const ContextPtr context = quiet_context();
   auto parsed = parse_crs(context.get(), crs);

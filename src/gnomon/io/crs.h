@@ -29,6 +29,9 @@ Result<CrsPlace> locate(const std::string& crs, const Vec3& p);
 // "EPSG:7415"; else unchanged.
 std::string short_crs(const std::string& crs);
 
+// For people: short_crs(), or of WKT the name that it gives the CRS, in quotes.
+std::string crs_in_words(const std::string& crs);
+
 // True for a CRS whose coordinates are longitude and latitude in degrees. False where it is
 // unknown.
 bool is_geographic_crs(const std::string& crs);

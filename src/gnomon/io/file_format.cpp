@@ -1,3 +1,4 @@
+#include <gnomon/core/lower_case.h>
 #include <gnomon/io/assimp_model.h>
 #include <gnomon/io/file_format.h>
 #include <gnomon/io/footprint_layer.h>
@@ -9,12 +10,6 @@
 
 namespace gnomon {
 namespace {
-
-std::string lower_extension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-  return extension;
-}
 
 // The value of the member "type" of the outermost object, as far as `text` reaches; empty where it
 // is not seen. The text need not be whole, nor valid beyond.
@@ -65,7 +60,7 @@ bool starts_as_obj(std::string_view text) {
 }  // namespace
 
 std::optional<FileFormat> format_of(const std::filesystem::path& path, std::string_view start) {
-  const std::string extension = lower_extension(path);
+  const std::string extension = lower_case(path.extension().string());
   if (start.starts_with("\xEF\xBB\xBF")) start.remove_prefix(3);
   const std::size_t first = start.find_first_not_of(" \t\r\n");
   const std::string_view text = first == start.npos ? std::string_view() : start.substr(first);

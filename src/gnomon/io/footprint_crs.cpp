@@ -61,6 +61,19 @@ bool looks_like_degrees(const FootprintFile& file, const Box& box) {
   return *middle < kSmallestBuilding;
 }
 
+// Longitudes are on a circle: what stands on both sides of the antimeridian has its middle there,
+// not at longitude 0, half the Earth away.
+Vec2 middle_of(FootprintFile& file, const Box& box, const std::string& crs) {
+  const Vec2 middle = (box.low + box.high) / 2.0;
+  if (box.high.x - box.low.x <= 180 || !is_geographic_crs(crs)) return middle;
+  double low = std::numeric_limits<double>::infinity(), high = -low;  // from 0 to 360 degrees east
+  for_each_point(file, [&](const Vec2& p) {
+    const double x = p.x - 360 * std::floor(p.x / 360);
+    low = std::min(low, x), high = std::max(high, x);
+  });
+  return high - low < box.high.x - box.low.x ? Vec2((low + high) / 2, middle.y) : middle;
+}
+
 // The CRS of a scene that nothing else decides: the file's own if it is fit for it, else UTM.
 Result<std::string> scene_crs(const std::string& own, const Vec2& middle, const std::string& path,
                               Warnings& warnings) {
@@ -85,16 +98,16 @@ Result<std::string> scene_crs(const std::string& own, const Vec2& middle, const 
 
 }  // namespace
 
-Result<std::string> place_footprints(FootprintFile& file, const std::string& path,
-                                     const std::string& target_crs, const std::string& fallback_crs,
-                                     Warnings& warnings) {
+Result<PlacedFootprints> place_footprints(FootprintFile& file, const std::string& path,
+                                          const std::string& target_crs,
+                                          const std::string& fallback_crs, Warnings& warnings) {
   const std::string target = short_crs(target_crs), fallback = short_crs(fallback_crs);
   Box box;
   for_each_point(file, [&](const Vec2& p) {
     box.low = glm::min(box.low, p);
     box.high = glm::max(box.high, p);
   });
-  if (!(box.low.x <= box.high.x)) return target;  // no footprint at all
+  if (!(box.low.x <= box.high.x)) return PlacedFootprints{target, ""};  // no footprint at all
 
   std::string own = short_crs(file.crs);
   if (own.empty()) {
@@ -123,12 +136,12 @@ Result<std::string> place_footprints(FootprintFile& file, const std::string& pat
       warn(warnings, "Files that name no CRS were taken as of the scene's.", path);
     }
     for_each_point(file, [&](Vec2& p) { p *= file.metres_per_unit; });
-    return target;
+    return PlacedFootprints{target, ""};
   }
 
   std::string to = target;
   if (to.empty()) {
-    auto chosen = scene_crs(own, (box.low + box.high) / 2.0, path, warnings);
+    auto chosen = scene_crs(own, middle_of(file, box, own), path, warnings);
     if (!chosen) return Error{path + ": " + chosen.error().message};
     to = std::move(chosen).value();
   }
@@ -138,14 +151,14 @@ Result<std::string> place_footprints(FootprintFile& file, const std::string& pat
                     "CRS in metres.",
                     path, to)};
   }
-  if (to == own) return to;
+  if (to == own) return PlacedFootprints{to, ""};
   std::vector<Vec2> points;
   for_each_point(file, [&](const Vec2& p) { points.push_back(p); });
   auto moved = reproject(own, to, std::move(points));
   if (!moved) return Error{path + ": " + moved.error().message};
   std::size_t next = 0;
   for_each_point(file, [&](Vec2& p) { p = moved.value()[next++]; });
-  return to;
+  return PlacedFootprints{to, own};
 }
 
 }  // namespace gnomon

@@ -3,6 +3,7 @@
 #include <cpl_conv.h>
 #include <cpl_error.h>
 #include <cpl_string.h>
+#include <cpl_vsi.h>
 #include <fmt/format.h>
 #include <gdal.h>
 #include <ogr_api.h>
@@ -16,7 +17,9 @@
 #include <optional>
 #include <set>
 
+#include <gnomon/core/lower_case.h>
 #include <gnomon/io/gdal_support.h>
+#include <gnomon/io/geojson_booleans.h>
 #include <gnomon/io/osm_tags.h>
 #include <gnomon/io/read_text.h>
 
@@ -41,26 +44,6 @@ constexpr std::array<Driver, 7> kDrivers = {{{"GeoJSON", "GeoJSON"},
                                              {"GML", "GML"},
                                              {"LIBKML", "KML"}}};
 
-// GDAL reports through a handler per thread; while one of these lives, its messages come here
-// instead of stderr.
-class GdalMessages {
- public:
-  GdalMessages() { CPLPushErrorHandlerEx(&GdalMessages::collect, this); }
-  ~GdalMessages() { CPLPopErrorHandler(); }
-  GdalMessages(const GdalMessages&) = delete;
-  GdalMessages& operator=(const GdalMessages&) = delete;
-
-  std::optional<std::string> failure;  // the first one: later ones are its consequences
-  std::vector<std::string> warnings;
-
- private:
-  static void CPL_STDCALL collect(CPLErr severity, CPLErrorNum, const char* message) {
-    auto* self = static_cast<GdalMessages*>(CPLGetErrorHandlerUserData());
-    if (severity == CE_Warning) self->warnings.emplace_back(message);
-    if (severity >= CE_Failure && !self->failure) self->failure = message;
-  }
-};
-
 struct DestroyFeature {
   void operator()(void* feature) const { OGR_F_Destroy(static_cast<OGRFeatureH>(feature)); }
 };
@@ -73,15 +56,25 @@ using Geometry = std::unique_ptr<std::remove_pointer_t<OGRGeometryH>, DestroyGeo
 constexpr std::size_t kMostOfGdal = 500;  // bytes of a message, which may quote the file
 
 // What GDAL said, as a part of a sentence.
-std::string reason_of(const GdalMessages& messages) {
-  std::string text = messages.failure            ? *messages.failure
-                     : messages.warnings.empty() ? "GDAL gives no reason"
-                                                 : messages.warnings.front();
+std::string reason_of(const GdalErrors& errors) {
+  std::string text = errors.first()              ? *errors.first()
+                     : errors.warnings().empty() ? "GDAL gives no reason"
+                                                 : errors.warnings().front();
   while (!text.empty() && (text.back() == '.' || text.back() == '\n')) text.pop_back();
   return printable(text, kMostOfGdal);
 }
 
-Result<Dataset> open(const std::filesystem::path& path, const GdalMessages& messages) {
+Error cannot_open(const std::filesystem::path& path, const GdalErrors& errors) {
+  return {fmt::format(
+      "{}: cannot be read as GeoJSON, GeoPackage, Shapefile, FlatGeobuf, GML or KML ({}); check "
+      "that the file is whole{}.",
+      path.string(), reason_of(errors),
+      lower_case(path.extension().string()) == ".shp"
+          ? " and that its .shx and .dbf stand beside it"
+          : "")};
+}
+
+Dataset open_with_drivers(const std::string& name) {
   static std::once_flag registered;
   std::call_once(registered, [] {
     RegisterOGRGeoJSON();
@@ -92,6 +85,15 @@ Result<Dataset> open(const std::filesystem::path& path, const GdalMessages& mess
     RegisterOGRGML();
     RegisterOGRLIBKML();
   });
+  std::array<const char*, kDrivers.size() + 1> drivers{};
+  for (std::size_t k = 0; k < kDrivers.size(); ++k) drivers[k] = kDrivers[k].name;
+  // Drivers ignore each other's options, but warn of them; these are GML's.
+  const std::array<const char*, 3> gml = {"WRITE_GFS=NO", "DOWNLOAD_SCHEMA=NO", nullptr};
+  return Dataset(GDALOpenEx(name.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, drivers.data(),
+                            lower_case(name).ends_with(".gml") ? gml.data() : nullptr, nullptr));
+}
+
+Result<Dataset> open(const std::filesystem::path& path, const GdalErrors& errors) {
   // GDAL takes some names for addresses ("GPKG:...", "http://...", "/vsicurl/..."): a path from the
   // root that is a file on this disk is none.
   std::error_code ignored;
@@ -105,20 +107,31 @@ Result<Dataset> open(const std::filesystem::path& path, const GdalMessages& mess
                     "file to another folder.",
                     path.string())};
   }
-  std::array<const char*, kDrivers.size() + 1> drivers{};
-  for (std::size_t k = 0; k < kDrivers.size(); ++k) drivers[k] = kDrivers[k].name;
-  // Drivers ignore each other's options, but warn of them; these are GML's.
-  std::string extension = lower_case(path.extension().string());
-  const std::array<const char*, 3> gml = {"WRITE_GFS=NO", "DOWNLOAD_SCHEMA=NO", nullptr};
-  Dataset dataset(GDALOpenEx(absolute.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, drivers.data(),
-                             extension == ".gml" ? gml.data() : nullptr, nullptr));
+  Dataset dataset = open_with_drivers(absolute);
   if (dataset) return dataset;
-  return Error{fmt::format(
-      "{}: cannot be read as GeoJSON, GeoPackage, Shapefile, FlatGeobuf, GML or KML ({}); check "
-      "that the file is whole{}.",
-      path.string(), reason_of(messages),
-      extension == ".shp" ? " and that its .shx and .dbf stand beside it" : "")};
+  return cannot_open(path, errors);
 }
+
+std::string driver_of(GDALDatasetH dataset) {
+  return GDALGetDriverShortName(GDALGetDatasetDriver(dataset));
+}
+
+// A text as a file of GDAL's in memory. The text must live longer, and datasets be closed before.
+class FileInMemory {
+ public:
+  FileInMemory(std::string& text, const std::string& file_name)
+      : name_(fmt::format("/vsimem/gnomon-{}/{}", static_cast<void*>(text.data()), file_name)) {
+    VSIFCloseL(VSIFileFromMemBuffer(name_.c_str(), reinterpret_cast<GByte*>(text.data()),
+                                    text.size(), FALSE));
+  }
+  ~FileInMemory() { VSIUnlink(name_.c_str()); }
+  FileInMemory(const FileInMemory&) = delete;
+  FileInMemory& operator=(const FileInMemory&) = delete;
+  const std::string& name() const { return name_; }
+
+ private:
+  std::string name_;
+};
 
 bool may_hold_polygons(OGRwkbGeometryType type, bool declared) {
   switch (wkbFlatten(type)) {
@@ -239,8 +252,12 @@ struct Field {
 };
 
 std::string text_of(OGRFeatureH feature, int index) {
+  const OGRFieldDefnH field = OGR_F_GetFieldDefnRef(feature, index);
+  if (OGR_Fld_GetSubType(field) == OFSTBoolean) {
+    return OGR_F_GetFieldAsInteger(feature, index) ? "true" : "false";
+  }
   // Without the rounding of OGR's own text.
-  if (OGR_Fld_GetType(OGR_F_GetFieldDefnRef(feature, index)) == OFTReal) {
+  if (OGR_Fld_GetType(field) == OFTReal) {
     return fmt::format("{}", OGR_F_GetFieldAsDouble(feature, index));
   }
   return OGR_F_GetFieldAsString(feature, index);
@@ -283,12 +300,6 @@ void name_feature(FootprintFeature& feature) {
 
 }  // namespace
 
-std::string lower_case(std::string_view text) {
-  std::string out(text);
-  for (char& c : out) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-  return out;
-}
-
 std::string listed(const std::vector<std::string>& names, std::size_t most) {
   std::string out;
   for (std::size_t k = 0; k < std::min(most, names.size()); ++k) {
@@ -300,8 +311,8 @@ std::string listed(const std::vector<std::string>& names, std::size_t most) {
 
 Result<std::string> crs_of_footprint_file(const std::filesystem::path& path,
                                           const std::string& layer) {
-  const GdalMessages messages;
-  const auto dataset = open(path, messages);
+  GdalErrors errors;
+  const auto dataset = open(path, errors);
   if (!dataset) return dataset.error();
   const auto chosen = choose_layer(dataset.value().get(), path.string(), layer);
   if (!chosen) return chosen.error();
@@ -311,16 +322,32 @@ Result<std::string> crs_of_footprint_file(const std::filesystem::path& path,
 Result<FootprintFile> read_footprint_file(const std::filesystem::path& path,
                                           const std::string& layer_name,
                                           const std::vector<std::string>& wanted_names) {
-  GdalMessages messages;
-  auto opened = open(path, messages);
+  GdalErrors errors;
+  std::vector<std::string> wanted = wanted_names;
+  wanted.insert(wanted.end(), kIds.begin(), kIds.end());
+  std::sort(wanted.begin(), wanted.end());
+
+  auto opened = open(path, errors);
   if (!opened) return opened.error();
-  const Dataset dataset = std::move(opened).value();
+  // GDAL takes true for the number 1 where other features have numbers.
+  std::string text;
+  std::optional<FileInMemory> in_memory;
+  Dataset dataset = std::move(opened).value();
+  if (driver_of(dataset.get()).starts_with("GeoJSON")) {
+    const auto whole = read_text(path);
+    if (whole) text = booleans_as_text(whole.value(), wanted);
+    if (!text.empty()) {
+      in_memory.emplace(text, path.filename().string());
+      dataset = open_with_drivers(in_memory->name());
+    }
+    if (!dataset) return cannot_open(path, errors);
+  }
   auto chosen = choose_layer(dataset.get(), path.string(), layer_name);
   if (!chosen) return chosen.error();
   const OGRLayerH layer = chosen.value();
 
   FootprintFile file;
-  const std::string driver = GDALGetDriverShortName(GDALGetDatasetDriver(dataset.get()));
+  const std::string driver = driver_of(dataset.get());
   for (const Driver& d : kDrivers) {
     if (driver == d.name) file.format = d.format;
   }
@@ -330,9 +357,6 @@ Result<FootprintFile> read_footprint_file(const std::filesystem::path& path,
   file.crs = crs.name;
   file.metres_per_unit = crs.metres_per_unit;
 
-  std::vector<std::string> wanted = wanted_names;
-  wanted.insert(wanted.end(), kIds.begin(), kIds.end());
-  std::sort(wanted.begin(), wanted.end());
   std::vector<Field> fields;
   const OGRFeatureDefnH definition = OGR_L_GetLayerDefn(layer);
   for (int k = 0; k < OGR_FD_GetFieldCount(definition); ++k) {
@@ -347,7 +371,7 @@ Result<FootprintFile> read_footprint_file(const std::filesystem::path& path,
   std::vector<GIntBig> fids;
   OGR_L_ResetReading(layer);
   while (const Feature source{OGR_L_GetNextFeature(layer)}) {
-    if (messages.failure) break;
+    if (errors.first()) break;
     FootprintFeature& feature = file.features.emplace_back();
     feature.number = file.features.size();
     fids.push_back(OGR_F_GetFID(source.get()));
@@ -357,11 +381,14 @@ Result<FootprintFile> read_footprint_file(const std::filesystem::path& path,
     feature.has_geometry = geometry && !OGR_G_IsEmpty(geometry);
     if (feature.has_geometry) add_polygons(geometry, crs.swapped, feature);
   }
-  if (messages.failure) {
-    return Error{fmt::format(
-        "{}: layer {} cannot be read beyond feature {} ({}); check that the "
-        "file is whole.",
-        path.string(), in_quotes(file.layer), file.features.size(), reason_of(messages))};
+  if (errors.first()) {
+    // GDAL reads all features of some formats at once, and says of none of them that it is the one.
+    const std::string where =
+        file.features.empty()
+            ? "one of its features cannot be read"
+            : fmt::format("it cannot be read beyond feature {}", file.features.size());
+    return Error{fmt::format("{}: layer {}: {} ({}); repair it, or check that the file is whole.",
+                             path.string(), in_quotes(file.layer), where, reason_of(errors))};
   }
   // GDAL numbers features where the file does not.
   bool numbered = true;
@@ -375,9 +402,9 @@ Result<FootprintFile> read_footprint_file(const std::filesystem::path& path,
     }
   }
   file.attributes.insert(file.attributes.end(), packed_names.begin(), packed_names.end());
-  for (const std::string& text : messages.warnings) {
+  for (const std::string& what : errors.warnings()) {
     warn(file.warnings, "GDAL was not content with a file.",
-         fmt::format("{}: {}", path.string(), printable(text, kMostOfGdal)));
+         fmt::format("{}: {}", path.string(), printable(what, kMostOfGdal)));
   }
   return file;
 }

@@ -52,9 +52,6 @@ Result<FootprintFile> read_footprint_file(const std::filesystem::path& path,
                                           const std::string& layer,
                                           const std::vector<std::string>& wanted);
 
-// In lower case (ASCII).
-std::string lower_case(std::string_view text);
-
 // "a, b, c"; after `most` of them ", ... (12 more)".
 std::string listed(const std::vector<std::string>& names, std::size_t most = 40);
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include <gnomon/io/footprint_file.h>
+#include <gnomon/core/lower_case.h>
 #include <gnomon/io/footprint_layer.h>
 
 namespace gnomon {

@@ -6,6 +6,7 @@
 
 #include <initializer_list>
 
+#include <gnomon/core/lower_case.h>
 #include <gnomon/io/osm_tags.h>
 #include <gnomon/io/read_text.h>
 

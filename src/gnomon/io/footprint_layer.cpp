@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include <gnomon/core/lower_case.h>
 #include <gnomon/io/crs.h>
 #include <gnomon/io/footprint_crs.h>
 #include <gnomon/io/footprint_file.h>
@@ -66,8 +67,8 @@ class Reader {
   Result<Model> read(const std::string& target_crs, const std::string& fallback_crs) {
     if (auto error = check_attributes()) return *error;
     choose();
-    auto crs = place_footprints(file_, path_, target_crs, fallback_crs, builder_.model.warnings);
-    if (!crs) return crs.error();
+    auto placed = place_footprints(file_, path_, target_crs, fallback_crs, builder_.model.warnings);
+    if (!placed) return placed.error();
     clean();
     take_heights();
     replace_outlines();
@@ -79,7 +80,11 @@ class Reader {
     Model& model = builder_.model;
     model.report.path = path_;
     model.report.format = file_.format + " footprints";
-    model.report.crs = std::move(crs).value();
+    model.report.crs = placed.value().crs;
+    if (const std::string& from = placed.value().moved_from; !from.empty()) {
+      model.report.placed =
+          fmt::format("moved from {} to {}", crs_in_words(from), model.report.crs);
+    }
     model.report.surfaces = model.polygons.size();
     return std::move(model);
   }
@@ -104,6 +109,16 @@ class Reader {
     constexpr std::size_t kShown = 3;  // the rest stands in docs/footprints.md
     return fmt::format("height: {}; storeys: {}", listed(names_.height, kShown),
                        listed(names_.floors, kShown));
+  }
+
+  // "; attributes of the file: ..." where none of them has one of the names of heights.
+  std::string height_is_elsewhere() const {
+    const bool any =
+        std::any_of(file_.attributes.begin(), file_.attributes.end(), [&](const auto& a) {
+          return std::find(names_.height.begin(), names_.height.end(), lower_case(a)) !=
+                 names_.height.end();
+        });
+    return any ? std::string() : fmt::format("; attributes of the file: {}", attributes());
   }
 
   // Attributes that the user names must be there.
@@ -218,7 +233,8 @@ class Reader {
       const Building& b = buildings_[k];
       if (b.has_heights || b.replaced || b.polygons.empty()) continue;
       if (problems_[k].empty()) {
-        warning("Footprints without a height were left out (looked for " + looked_for() + ").",
+        warning(fmt::format("Footprints without a height were left out (looked for {}{}).",
+                            looked_for(), height_is_elsewhere()),
                 *b.feature);
         ++without_height_;
       } else {

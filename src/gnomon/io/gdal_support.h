@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <cpl_error.h>
 #include <cpl_string.h>
@@ -19,8 +20,8 @@
 
 namespace gnomon {
 
-// GDAL reports through a handler per thread; while one of these lives, its errors come here instead
-// of stderr.
+// GDAL reports through a handler per thread; while one of these lives, its messages come here
+// instead of stderr.
 class GdalErrors {
  public:
   GdalErrors() { CPLPushErrorHandlerEx(&GdalErrors::collect, this); }
@@ -30,14 +31,16 @@ class GdalErrors {
 
   // The first failure is the cause, later ones are its consequences.
   const std::optional<std::string>& first() const { return first_; }
+  const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
   static void CPL_STDCALL collect(CPLErr severity, CPLErrorNum, const char* message) {
-    if (severity < CE_Failure) return;
     auto* self = static_cast<GdalErrors*>(CPLGetErrorHandlerUserData());
-    if (!self->first_) self->first_ = message;
+    if (severity == CE_Warning) self->warnings_.emplace_back(message);
+    if (severity >= CE_Failure && !self->first_) self->first_ = message;
   }
   std::optional<std::string> first_;
+  std::vector<std::string> warnings_;
 };
 
 struct CloseDataset {

@@ -98,6 +98,7 @@ class GltfReader {
     for (const Placed& p : placed_) {
       if (auto error = add_node(p)) return *error;
     }
+    warn_of_nodes_outside();
     Model& m = builder_.model;
     warn(m.warnings, "Animations are not played: the model stands as the file has it at rest.",
          f_.path, size_of(member(&f_.json, "animations")));
@@ -166,6 +167,18 @@ class GltfReader {
       roots.push_back(*node);
     }
     return roots;
+  }
+
+  void warn_of_nodes_outside() {
+    for (std::size_t k = 0; k < size_of(nodes_); ++k) {
+      const Json* node = element(nodes_, k);
+      if (world_.contains(k) || !member(node, "mesh")) continue;
+      const std::string name = cityjson::text(member(node, "name"));
+      warn(builder_.model.warnings,
+           "Nodes with meshes that stand outside the file's default scene were left out.",
+           damaged(fmt::format("node {}{}", k, name.empty() ? "" : " " + in_quotes(name, 200)))
+               .message);
+    }
   }
 
   std::optional<Error> place(std::size_t k, const Mat4& parent, std::string object, int depth) {

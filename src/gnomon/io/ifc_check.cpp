@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <gnomon/core/lower_case.h>
 #include <gnomon/io/ifc_check.h>
 #include <gnomon/io/read_text.h>
 
@@ -9,12 +10,6 @@
 
 namespace gnomon {
 namespace {
-
-std::string lower(std::string_view keyword) {
-  std::string out(keyword);
-  for (char& c : out) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-  return out;
-}
 
 std::unordered_set<std::string_view> known_names() {
   std::unordered_set<std::string_view> names;
@@ -83,7 +78,7 @@ std::optional<std::uint32_t> on_circle(const Edges& edges, std::size_t instances
 
 std::string_view ifc_schema(const StepFile& file) {
   for (const std::string& name : file.schemas) {
-    if (lower(name).starts_with("ifc")) return name;
+    if (lower_case(name).starts_with("ifc")) return name;
   }
   return {};
 }
@@ -94,7 +89,7 @@ std::optional<Error> check_ifc(const StepFile& file) {
     return Error{fmt::format("{}: is a STEP file of the schema {}, not IFC.", file.path,
                              file.schemas.empty() ? "\"\"" : in_quotes(file.schemas[0]))};
   }
-  const std::string name = lower(schema);
+  const std::string name = lower_case(schema);
   const bool ifc2x3 = name.starts_with("ifc2x3");
   if (!ifc2x3 && !name.starts_with("ifc4")) {
     return Error{fmt::format("{}: its schema is {}; IFC2x3 is read, so export the model as IFC2x3.",
@@ -105,7 +100,7 @@ std::optional<Error> check_ifc(const StepFile& file) {
   std::vector<char> readable;
   readable.reserve(file.instances.size());
   for (const StepInstance& i : file.instances) {
-    const std::string keyword = lower(i.keyword);
+    const std::string keyword = lower_case(i.keyword);
     readable.push_back(keyword.starts_with("ifc") &&
                        known.contains(std::string_view(keyword).substr(3)));
   }

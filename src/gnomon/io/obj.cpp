@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <gnomon/io/obj.h>
 #include <gnomon/io/obj_lines.h>
+#include <gnomon/io/read_text.h>
 #include <tiny_obj_loader.h>
 
 #include <istream>
@@ -121,6 +122,10 @@ Result<Model> read_obj(std::string_view text, const std::string& path, char up,
   warn(model.warnings,
        "Free-form curves and surfaces were left out; export the model with polygons instead.",
        fmt::format("{}: line {}", path, lines.first_free_form), lines.free_form);
+  warn(model.warnings,
+       "Statements that are not known, or bring in another file (call), were left out.",
+       fmt::format("{}: line {}: {}", path, lines.first_unknown, in_quotes(lines.unknown_keyword)),
+       lines.unknown);
 
   std::set<std::pair<std::string_view, std::string_view>> objects;
   for (const Surface& s : model.surfaces) {

@@ -3,6 +3,7 @@
 #include <gnomon/io/read_text.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -11,6 +12,23 @@
 
 namespace gnomon {
 namespace {
+
+// Statements of the format's specification (Wavefront, "Object Files", 1995), but for v, f, fo, l
+// and p: those that make curves and surfaces, their older forms last, ...
+constexpr std::array<std::string_view, 7> kFreeForm = {"curv", "curv2", "surf", "bzp",
+                                                       "bsp",  "cdc",   "cdp"};
+// ... and those that make none of their own. "call" and "csh" are in neither: they bring in another
+// file.
+constexpr std::array<std::string_view, 31> kWithoutSurfaces = {
+    "vt",     "vn",     "vp",         "o",         "g",        "s",        "mg",    "usemtl",
+    "mtllib", "usemap", "maplib",     "lod",       "bevel",    "parm",     "trim",  "hole",
+    "scrv",   "sp",     "shadow_obj", "trace_obj", "c_interp", "d_interp", "ctech", "deg",
+    "stech",  "cstype", "bmat",       "step",      "end",      "con",      "res"};
+
+template <std::size_t n>
+bool is_one_of(const std::array<std::string_view, n>& words, std::string_view word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
 
 // Cuts the next word off `rest`; empty at the end of the line.
 std::string_view next_word(std::string_view& rest) {
@@ -100,8 +118,11 @@ struct Checker {
     if (keyword == "f" || keyword == "fo") return face(rest, number);
     if (keyword == "l" || keyword == "p") {
       if (out.points_and_lines++ == 0) out.first_point_or_line = number;
-    } else if (keyword == "curv" || keyword == "curv2" || keyword == "surf") {
+    } else if (is_one_of(kFreeForm, keyword)) {
       if (out.free_form++ == 0) out.first_free_form = number;
+    } else if (!keyword.empty() && !is_one_of(kWithoutSurfaces, keyword) && out.unknown++ == 0) {
+      out.first_unknown = number;
+      out.unknown_keyword = keyword;
     }
     return true;
   }

@@ -23,6 +23,8 @@ struct ObjLines {
   // Left out: how many, and the line of the first.
   std::size_t points_and_lines = 0, first_point_or_line = 0;
   std::size_t free_form = 0, first_free_form = 0;
+  std::size_t unknown = 0, first_unknown = 0;
+  std::string unknown_keyword;  // the first one, as in the file
 };
 
 // Errors as in read_obj; every index in the result leads to a vertex above or below its face.

@@ -1,4 +1,5 @@
 // Based on: OpenStreetMap wiki, "Key:height" and "Map features/Units" (lengths).
+#include <gnomon/core/lower_case.h>
 #include <gnomon/io/osm_tags.h>
 
 #include <algorithm>
@@ -66,9 +67,8 @@ bool take_word(std::string_view& text, std::initializer_list<std::string_view> w
   std::size_t longest = 0;
   for (const std::string_view word : words) {
     if (word.size() <= longest || word.size() > text.size()) continue;
-    const bool same = std::equal(word.begin(), word.end(), text.begin(), [](char a, char b) {
-      return a == (b >= 'A' && b <= 'Z' ? static_cast<char>(b - 'A' + 'a') : b);
-    });
+    const bool same = std::equal(word.begin(), word.end(), text.begin(),
+                                 [](char a, char b) { return a == lower_case(b); });
     if (same) longest = word.size();
   }
   text.remove_prefix(longest);
@@ -153,8 +153,8 @@ std::optional<Tags> parse_tags(std::string_view text) {
   if (!json.is_object()) return std::nullopt;
   Tags tags;
   for (const auto& [key, value] : json.items()) {
-    if (value.is_string()) tags.emplace_back(key, value.get<std::string>());
-    if (value.is_number() || value.is_boolean()) tags.emplace_back(key, value.dump());
+    if (value.is_null()) continue;
+    tags.emplace_back(key, value.is_string() ? value.get<std::string>() : value.dump());
   }
   return tags;
 }

@@ -20,8 +20,9 @@ std::optional<double> parse_metres(std::string_view text);
 using Tags = std::vector<std::pair<std::string, std::string>>;
 
 // A JSON object ({"height": "12"}, as GeoJSON has nested tags) or the text of a PostgreSQL hstore
-// ("height"=>"12", as GDAL's OSM driver writes other_tags). Members that are null, objects or
-// arrays are left out. Nothing where it is neither.
+// ("height"=>"12", as GDAL's OSM driver writes other_tags). Members that are null are left
+// out; objects and arrays stay as JSON, so that who looks for a number sees that there is none.
+// Nothing where it is neither.
 std::optional<Tags> parse_tags(std::string_view text);
 
 }  // namespace gnomon

@@ -16,6 +16,8 @@
 #include <optional>
 #include <utility>
 
+#include <gnomon/core/lower_case.h>
+
 namespace gnomon {
 namespace {
 
@@ -41,11 +43,6 @@ void register_drivers() {
   });
 }
 
-std::string lower(std::string text) {
-  for (char& c : text) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-  return text;
-}
-
 // Values that files without a declared nodata value often have in its place. None is a height.
 constexpr double kUsualNoData[] = {-9999, -32767, -32768, -99999};
 
@@ -58,7 +55,7 @@ Error refuse(const std::filesystem::path& path, const std::string& why) {
 }
 
 std::optional<double> metres_per(const std::string& unit) {
-  const std::string u = lower(unit);
+  const std::string u = lower_case(unit);
   for (const char* name : {"m", "metre", "metres", "meter", "meters"}) {
     if (u == name) return 1.0;
   }
@@ -96,12 +93,14 @@ double height_unit(const std::filesystem::path& path, GDALRasterBandH band,
   return 1.0;
 }
 
-std::optional<Error> check_band(const std::filesystem::path& path, GDALRasterBandH band,
-                                int number) {
+// How another band becomes the first, which is the one that is read.
+constexpr const char* kTakeBand = "'gdal_translate -b N in.tif out.tif' takes band N out of a file";
+
+std::optional<Error> check_band(const std::filesystem::path& path, GDALRasterBandH band) {
   if (GDALDataTypeIsComplex(GDALGetRasterDataType(band))) {
-    return refuse(path, fmt::format("band {} holds complex numbers, which are no heights; choose "
-                                    "another band.",
-                                    number));
+    return refuse(path, fmt::format("its first band holds complex numbers, which are no heights; "
+                                    "give a raster of heights ({}).",
+                                    kTakeBand));
   }
   switch (GDALGetRasterColorInterpretation(band)) {
     case GCI_PaletteIndex:
@@ -111,10 +110,10 @@ std::optional<Error> check_band(const std::filesystem::path& path, GDALRasterBan
     case GCI_AlphaBand:
       return refuse(
           path,
-          fmt::format("band {} is a colour of a picture ({}), not heights; give a "
-                      "raster of heights, or another band.",
-                      number,
-                      GDALGetColorInterpretationName(GDALGetRasterColorInterpretation(band))));
+          fmt::format("its first band is a colour of a picture ({}), not heights; give a raster of "
+                      "heights ({}).",
+                      GDALGetColorInterpretationName(GDALGetRasterColorInterpretation(band)),
+                      kTakeBand));
     default:
       return {};
   }
@@ -139,8 +138,8 @@ std::optional<Error> check_placed(const std::filesystem::path& path, const Raste
 
 // What is not data becomes NaN; the rest is scaled, and checked.
 std::optional<Error> finish_values(const std::filesystem::path& path, RasterGrid& grid,
-                                   const RasterWindow& w, const std::vector<std::uint8_t>& mask,
-                                   double scale, double offset, bool declared) {
+                                   const std::vector<std::uint8_t>& mask, double scale,
+                                   double offset, bool declared) {
   for (std::size_t k = 0; k < grid.z.size(); ++k) {
     double& z = grid.z[k];
     if (std::isnan(z) || (!mask.empty() && mask[k] == 0)) {
@@ -152,13 +151,12 @@ std::optional<Error> finish_values(const std::filesystem::path& path, RasterGrid
     const bool usual = !declared && std::find(std::begin(kUsualNoData), std::end(kUsualNoData),
                                               raw) != std::end(kUsualNoData);
     if (std::fabs(z) <= kHighestHeight && !usual) continue;
-    const auto n = static_cast<std::size_t>(w.columns);
+    const auto n = static_cast<std::size_t>(grid.columns);
     return refuse(
         path,
         fmt::format("the value {:g} at column {}, row {} (from 0) is no height; if it stands for "
                     "'no data', declare it: gdal_edit.py -a_nodata {:.17g} FILE.",
-                    raw, static_cast<std::size_t>(w.column) + k % n,
-                    static_cast<std::size_t>(w.row) + k / n, raw));
+                    raw, k % n, k / n, raw));
   }
   return {};
 }
@@ -169,7 +167,7 @@ Result<Dataset> open(const std::filesystem::path& path, const GdalErrors& errors
   if (!std::filesystem::is_regular_file(path, ignored)) {
     return refuse(path, "there is no such file; check the name.");
   }
-  if (lower(path.extension().string()) == ".vrt") {
+  if (lower_case(path.extension().string()) == ".vrt") {
     return refuse(path,
                   "a VRT only names other files and is not read; make one file of it with "
                   "'gdal_translate in.vrt out.tif'.");
@@ -206,12 +204,12 @@ bool is_raster_file(const std::filesystem::path& path, std::string_view first_by
         "DSBB"sv, "DSRB"sv}) {
     if (first_bytes.starts_with(magic)) return true;
   }
-  std::string start = lower(std::string(first_bytes.substr(0, 32)));
+  std::string start = lower_case(first_bytes.substr(0, 32));
   start.erase(0, std::min(start.find_first_not_of(" \t\r\n"), start.size()));
   for (const char* word : {"ncols", "nrows", "xllcorner", "xllcenter", "yllcorner", "yllcenter"}) {
     if (start.starts_with(word)) return true;
   }
-  const std::string extension = lower(path.extension().string());
+  const std::string extension = lower_case(path.extension().string());
   for (const char* known : {".tif", ".tiff", ".asc", ".hgt", ".dem", ".bil", ".flt", ".img", ".dt0",
                             ".dt1", ".dt2", ".grd", ".vrt"}) {
     if (extension == known) return true;
@@ -220,28 +218,26 @@ bool is_raster_file(const std::filesystem::path& path, std::string_view first_by
 }
 
 Result<std::string> crs_of_raster_file(const std::filesystem::path& path) {
-  const GdalErrors errors;
+  GdalErrors errors;
   const auto dataset = open(path, errors);
   if (!dataset) return dataset.error();
   return name_in_file(crs_of(dataset.value().get()));
 }
 
 Result<RasterGrid> read_raster_grid(
-    const std::filesystem::path& path, int number, const std::string& fallback_crs,
-    const std::function<Result<RasterWindow>(const RasterGrid&)>& window, Warnings& warnings) {
+    const std::filesystem::path& path, const std::string& fallback_crs,
+    const std::function<std::optional<Error>(const RasterGrid&)>& check, Warnings& warnings) {
   GdalErrors errors;
   auto opened = open(path, errors);
   if (!opened) return opened.error();
   const Dataset dataset = std::move(opened).value();
   const int bands = GDALGetRasterCount(dataset.get());
-  if (number < 1 || number > bands) {
-    return refuse(path, fmt::format("there is no band {}; it has {}.", number, bands));
-  }
-  const GDALRasterBandH band = GDALGetRasterBand(dataset.get(), number);
-  if (auto error = check_band(path, band, number)) return *error;
+  if (bands < 1) return refuse(path, "there is no band of values in it.");
+  const GDALRasterBandH band = GDALGetRasterBand(dataset.get(), 1);
+  if (auto error = check_band(path, band)) return *error;
   if (bands > 1) {
-    warn(warnings, "Of a raster with several bands one is read.",
-         fmt::format("{}: band {} of {}", path.string(), number, bands));
+    warn(warnings, fmt::format("Of a raster with several bands the first is read; {}.", kTakeBand),
+         fmt::format("{}: {} bands", path.string(), bands));
   }
 
   RasterGrid grid;
@@ -261,24 +257,18 @@ Result<RasterGrid> read_raster_grid(
   if (grid.crs.empty()) grid.crs = fallback_crs;
   if (auto error = check_placed(path, grid)) return *error;
 
-  const Result<RasterWindow> wanted = window(grid);
-  if (!wanted) return wanted.error();
-  const RasterWindow& w = wanted.value();
-  const Vec2 corner = place_of(grid, w.column, w.row);
-  grid.transform[0] = corner.x;
-  grid.transform[3] = corner.y;
-  grid.columns = w.columns;
-  grid.rows = w.rows;
+  if (auto error = check(grid)) return *error;
 
-  const std::size_t cells = static_cast<std::size_t>(w.columns) * static_cast<std::size_t>(w.rows);
+  const int columns = grid.columns, rows = grid.rows;
+  const std::size_t cells = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
   grid.z.resize(cells);
   std::vector<std::uint8_t> mask;
-  CPLErr read = GDALRasterIO(band, GF_Read, w.column, w.row, w.columns, w.rows, grid.z.data(),
-                             w.columns, w.rows, GDT_Float64, 0, 0);
+  CPLErr read = GDALRasterIO(band, GF_Read, 0, 0, columns, rows, grid.z.data(), columns, rows,
+                             GDT_Float64, 0, 0);
   if (read == CE_None && !(GDALGetMaskFlags(band) & GMF_ALL_VALID)) {
     mask.resize(cells);
-    read = GDALRasterIO(GDALGetMaskBand(band), GF_Read, w.column, w.row, w.columns, w.rows,
-                        mask.data(), w.columns, w.rows, GDT_Byte, 0, 0);
+    read = GDALRasterIO(GDALGetMaskBand(band), GF_Read, 0, 0, columns, rows, mask.data(), columns,
+                        rows, GDT_Byte, 0, 0);
   }
   if (read != CE_None || errors.first()) {
     return refuse(path, fmt::format("its values cannot be read ({}); the file may be cut off, so "
@@ -290,7 +280,7 @@ Result<RasterGrid> read_raster_grid(
   const double scale = GDALGetRasterScale(band, &has_scale);
   const double offset = GDALGetRasterOffset(band, &has_offset);
   GDALGetRasterNoDataValue(band, &declared);
-  if (auto error = finish_values(path, grid, w, mask, (has_scale ? scale : 1.0) * unit,
+  if (auto error = finish_values(path, grid, mask, (has_scale ? scale : 1.0) * unit,
                                  (has_offset ? offset : 0.0) * unit, declared != 0)) {
     return *error;
   }

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,11 +33,6 @@ inline Vec2 place_of(const RasterGrid& g, double i, double j) {
   return {t[0] + i * t[1] + j * t[2], t[3] + i * t[4] + j * t[5]};
 }
 
-// Cells of a grid: those of columns [column, column + columns) and rows alike.
-struct RasterWindow {
-  int column = 0, row = 0, columns = 0, rows = 0;
-};
-
 // True for the files that read_raster_grid takes: by content GeoTIFF (also COG and BigTIFF), Arc
 // ASCII grid, Erdas Imagine, DTED, Surfer grid; or by the extension of any of these, of SRTM
 // (.hgt), USGS (.dem) and ESRI (.bil, .flt). True for .vrt too, so that a user is told why it is
@@ -47,18 +43,18 @@ bool is_raster_file(const std::filesystem::path& path, std::string_view first_by
 // a raster or one of a kind that is not read, a VRT.
 Result<std::string> crs_of_raster_file(const std::filesystem::path& path);
 
-// Reads band `band` (1 the first) of a file on disk. fallback_crs: what its coordinates are in
-// where it names no CRS (may be empty); it becomes grid.crs. `window` is given the grid without its
-// values and says which cells are wanted; it may refuse. Values get the band's scale and offset and
+// Reads the first band of a file on disk. fallback_crs: what its coordinates are in
+// where it names no CRS (may be empty); it becomes grid.crs. `check` is given the grid without its
+// values, before they are read; it may refuse. Values get the band's scale and offset and
 // become metres by the unit of the band or of the vertical CRS (feet of either kind);
 // pixel-is-point is heeded. What the file masks (nodata, mask, alpha) and what is NaN has no data.
 // Warnings: a unit that is not understood, or not named where the CRS is in feet; bands not read.
-// Errors: not a raster or one of a kind that is not read, a VRT; no such band; complex numbers; a
+// Errors: not a raster or one of a kind that is not read, a VRT; complex numbers; a
 // picture; no georeference; cells of no area; what GDAL reports (a truncated file); a value beyond
 // kHighestHeight, which names the cell. Nothing is printed, nothing fetched from a network.
 Result<RasterGrid> read_raster_grid(
-    const std::filesystem::path& path, int band, const std::string& fallback_crs,
-    const std::function<Result<RasterWindow>(const RasterGrid&)>& window, Warnings& warnings);
+    const std::filesystem::path& path, const std::string& fallback_crs,
+    const std::function<std::optional<Error>(const RasterGrid&)>& check, Warnings& warnings);
 
 // No surface on Earth is higher or deeper (metres): such a value is a nodata value that the file
 // does not declare, or something else than heights.

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <gnomon/core/lower_case.h>
 #include <gnomon/io/mesh_text.h>
 #include <gnomon/io/read_text.h>
 #include <gnomon/io/stl.h>
@@ -18,8 +19,7 @@ constexpr std::size_t kHeader = 80, kFirstFacet = 84, kFacet = 50;  // bytes
 bool is_word(std::string_view word, std::string_view lower) {
   if (word.size() != lower.size()) return false;
   for (std::size_t k = 0; k < word.size(); ++k) {
-    const char c = word[k];
-    if ((c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c) != lower[k]) return false;
+    if (lower_case(word[k]) != lower[k]) return false;
   }
   return true;
 }

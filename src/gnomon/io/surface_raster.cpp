@@ -20,10 +20,6 @@ namespace {
 // needs while it is read: measured, docs/surface-models.md.
 constexpr double kBytesPerTriangle = 160, kBytesPerCell = 60;
 
-// Points along each side of a rectangle that is brought to another CRS to find what it covers: its
-// sides become curves there.
-constexpr int kSidePoints = 16;
-
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 Error prefixed(const std::string& name, const Error& error) {
@@ -83,44 +79,6 @@ Result<Placement> place(const RasterGrid& grid, const std::string& target,
   if (!there) return there.error();
   p.moved = there.value() != corners;
   return p;
-}
-
-// The cells that a rectangle in the target CRS touches, and one more around.
-Result<RasterWindow> window_of(const RasterGrid& grid, const Placement& at, const Bounds2& b) {
-  std::vector<Vec2> outline;
-  for (int k = 0; k <= kSidePoints; ++k) {
-    const double s = static_cast<double>(k) / kSidePoints;
-    const double x = b.x0 + s * (b.x1 - b.x0), y = b.y0 + s * (b.y1 - b.y0);
-    for (const Vec2& p : {Vec2(x, b.y0), Vec2(x, b.y1), Vec2(b.x0, y), Vec2(b.x1, y)}) {
-      outline.push_back(p);
-    }
-  }
-  if (at.moved) {
-    auto back = reproject(at.target, at.own, std::move(outline));
-    if (!back) return back.error();
-    outline = std::move(back).value();
-  }
-  const auto& t = grid.transform;
-  const double area = t[1] * t[5] - t[2] * t[4];
-  double i0 = std::numeric_limits<double>::infinity(), i1 = -i0, j0 = i0, j1 = -i0;
-  for (const Vec2& p : outline) {
-    const double x = p.x - t[0], y = p.y - t[3];
-    const double i = (x * t[5] - y * t[2]) / area, j = (y * t[1] - x * t[4]) / area;
-    i0 = std::min(i0, i), i1 = std::max(i1, i);
-    j0 = std::min(j0, j), j1 = std::max(j1, j);
-  }
-  if (i1 <= 0 || j1 <= 0 || i0 >= grid.columns || j0 >= grid.rows) {
-    return Error{"none of it lies within the bounds; check the bounds and the CRS"};
-  }
-  const auto first = [](double at_least) { return std::max(0, static_cast<int>(at_least) - 1); };
-  const auto end = [](double at_most, int n) {
-    return at_most + 2 >= n ? n : static_cast<int>(std::ceil(at_most)) + 1;
-  };
-  RasterWindow w;
-  w.column = first(i0), w.row = first(j0);
-  w.columns = end(i1, grid.columns) - w.column;
-  w.rows = end(j1, grid.rows) - w.row;
-  return w;
 }
 
 // Points of the grid in the target CRS, less `origin`, which is subtracted before anything rounds
@@ -291,6 +249,10 @@ Result<Model> surface_of_grid(RasterGrid grid, const std::string& name,
   }
   Model model = model_of(std::move(mesh).value(), grid, name, origin, options);
   model.report.crs = at.value().target;
+  if (at.value().moved) {
+    model.report.placed =
+        fmt::format("moved from {} to {}", crs_in_words(at.value().own), at.value().target);
+  }
   model.warnings = std::move(warnings);
   return model;
 }
@@ -299,24 +261,14 @@ Result<Model> read_surface_raster(const std::filesystem::path& path, const Raste
                                   const std::string& target_crs, const std::string& fallback_crs,
                                   const GroundAt& ground) {
   const std::string name = path.string();
-  const auto window = [&](const RasterGrid& header) -> Result<RasterWindow> {
-    RasterWindow w{0, 0, header.columns, header.rows};
-    if (options.bounds) {
-      const auto at = place(header, target_crs, fallback_crs);
-      if (!at) return prefixed(name, at.error());
-      auto part = window_of(header, at.value(), *options.bounds);
-      if (!part) return prefixed(name, part.error());
-      w = part.value();
-    }
-    const double cells = static_cast<double>(w.columns) * w.rows;
+  const auto check = [&](const RasterGrid& header) {
     // Terrain has two triangles a cell at least.
-    const double bytes =
-        cells * (kBytesPerCell + (options.above_ground ? 0 : 2 * kBytesPerTriangle));
-    if (auto error = check_memory(name, header, bytes)) return *error;
-    return w;
+    const double cells = static_cast<double>(header.columns) * header.rows;
+    return check_memory(
+        name, header, cells * (kBytesPerCell + (options.above_ground ? 0 : 2 * kBytesPerTriangle)));
   };
   Warnings warnings;
-  auto grid = read_raster_grid(path, options.band, fallback_crs, window, warnings);
+  auto grid = read_raster_grid(path, fallback_crs, check, warnings);
   if (!grid) return grid.error();
   auto model =
       surface_of_grid(std::move(grid).value(), name, options, target_crs, fallback_crs, ground);

@@ -2,13 +2,11 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 
 #include <gnomon/core/result.h>
 #include <gnomon/io/model.h>
 #include <gnomon/io/raster_grid.h>
-#include <gnomon/view/view.h>
 
 namespace gnomon {
 
@@ -23,8 +21,6 @@ struct RasterOptions {
   // the ground up, with walls down to the lowest ground in the 3 x 3 cells around it; other cells
   // are nothing. Sloped blocks cover the same cells as level ones.
   bool above_ground = false;
-  int band = 1;
-  std::optional<Bounds2> bounds = {};  // in the target CRS: only cells around and in it are read
 };
 
 // The surface as a Model with one Surface: object is the file's name without extension, group
@@ -36,13 +32,13 @@ struct RasterOptions {
 // Heights keep their vertical datum. `ground` is asked (target CRS) only for above_ground, where it
 // may be empty: then, as where it knows nothing, the lowest ground known around the cell serves,
 // else 0, with a warning. Warnings: cells without data; cells that got no triangle; those of
-// read_raster_grid. Errors: those of read_raster_grid and reproject; no surface at all; bounds that
-// miss the raster; a mesh that needs more memory than the machine has.
+// read_raster_grid. Errors: those of read_raster_grid and reproject; no surface at all; a mesh that
+// needs more memory than the machine has.
 Result<Model> read_surface_raster(const std::filesystem::path& path, const RasterOptions& options,
                                   const std::string& target_crs, const std::string& fallback_crs,
                                   const GroundAt& ground);
 
-// The same for a grid in memory (options.band and .bounds do not count). `name` stands for the
+// The same for a grid in memory. `name` stands for the
 // path.
 Result<Model> surface_of_grid(RasterGrid grid, const std::string& name,
                               const RasterOptions& options, const std::string& target_crs,

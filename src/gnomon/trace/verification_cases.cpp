@@ -12,12 +12,18 @@
 namespace gnomon {
 namespace {
 
+// Views and lights are laid out in widths of the model, and one vertical line has none: it is given
+// a thousandth of its height, thin beside it and far above the rounding of its coordinates.
+constexpr double kWidthOfLine = 1e-3;
+
 struct ModelBox {
   Vec3 lo{0.0}, hi{0.0};
   Vec3 centre() const { return (lo + hi) * 0.5; }
   // The larger side on the ground; of a model that is nothing but one vertical line, a little
   // still.
-  double width() const { return std::max({hi.x - lo.x, hi.y - lo.y, 1e-3 * (hi.z - lo.z)}); }
+  double width() const {
+    return std::max({hi.x - lo.x, hi.y - lo.y, kWidthOfLine * (hi.z - lo.z)});
+  }
 };
 
 // The box of what casts and is not ground, so that views and lights stand near the model and not
