@@ -223,7 +223,7 @@ TEST(HoursTable, CountsEverySampleOnce) {
   EXPECT_EQ(t.bars[4].length, 2);  // exactly one hour belongs to [1, 1.25)
   EXPECT_EQ(t.rows[9][0], "2.25 to 2.5 h");
   EXPECT_EQ(t.bars[9].length, 1);  // the last class includes its end
-  EXPECT_TRUE(has(t.note, "1 without one"));
+  EXPECT_TRUE(has(t.note, "1 others are not counted"));
 }
 
 TEST(HoursTable, IsPerDayOverSeveralDays) {

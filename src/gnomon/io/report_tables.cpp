@@ -115,16 +115,17 @@ ReportTable hours_table(const Profile& profile, double sample_area, std::uint64_
     table.rows.push_back(std::move(row));
     table.bars.push_back({count, hours_colour(daylight > 0 ? (from + to) / 2 / daylight : 0)});
   }
-  table.note =
-      fmt::format("Each class begins with its lower hours. {} samples with a surface", samples);
+  table.note = fmt::format(
+      "Each class holds its lower hours and not its upper ones, the last both. {} samples on "
+      "receiving surfaces",
+      samples);
   if (sample_area > 0) {
     table.note += fmt::format(", {} m\u00b2 each, as seen from above: {} m\u00b2",
                               fmt::format("{:.4g}", sample_area),
                               area_text(static_cast<double>(samples) * sample_area));
   }
   const std::size_t empty = profile.valid.size() - samples;
-  table.note += empty == 0 ? "; there is none without."
-                           : fmt::format("; {} without one are not counted.", empty);
+  table.note += empty == 0 ? "." : fmt::format("; {} others are not counted.", empty);
   return table;
 }
 
