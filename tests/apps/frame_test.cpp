@@ -98,6 +98,13 @@ TEST_F(Frame, OfACityHasAMarginOfFiftyMetres) {
   EXPECT_NEAR(bounds[3].get<double>() - bounds[1].get<double>(), 556.4 + 100, 8);
 }
 
+TEST_F(Frame, OfACameraOnALongDayLooksFromWhereTheSunIsHigh) {
+  ASSERT_EQ(profile_of_tower("--date 2024-06-21 --tz Europe/Vienna --view camera --size 80x50"), 0)
+      << err_;
+  const auto eye = summary()["view"]["definition"]["eye"];
+  EXPECT_LT(eye[1].get<double>() / eye[3].get<double>(), -20) << "south of the tower";
+}
+
 TEST_F(Frame, OfALampIsThreeHeightsWide) {
   ASSERT_EQ(shadow("--light 0,-50,100 --pixel 1"), 0) << err_;
   EXPECT_EQ(summary()["view"]["bounds"], (nlohmann::json{-240.0, -240.0, 260.0, 260.0}));
