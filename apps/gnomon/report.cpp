@@ -119,8 +119,9 @@ std::string ground_text(const LoadedScene& loaded, const std::string& mode) {
 
 // How good the hours are, which only steps decide.
 std::string precision_text(const std::string& every) {
-  std::string text = "hours at a spot are right to about one step (" + every + ")";
   const auto step = read_step(every);
+  std::string text = "hours at a spot are right to about one step";
+  if (step) text += " (" + duration_text(static_cast<double>(step->count())) + ")";
   for (const char* finer : {"15min", "5min", "1min"}) {
     if (step && *step > *read_step(finer)) return text + "; --every " + finer + " is finer";
   }
@@ -188,7 +189,7 @@ ReportFacts report_inputs(const ModelOptions& models, const TimeOptions& time,
       "Bounds",
       fmt::format("{:.10g},{:.10g},{:.10g},{:.10g}{}", west, north - pixel * chosen.height,
                   west + pixel * chosen.width, north, view.bounds.empty() ? ", chosen" : ""));
-  facts.emplace_back("Isolines every", isolines.empty() ? "chosen" : isolines);
+  facts.emplace_back("Isolines every", isolines.empty() ? "as in the map's legend" : isolines);
   return facts;
 }
 

@@ -266,7 +266,9 @@ TEST(StepsTable, ThinsLongTablesAndSaysSo) {
       steps_table(study("1min").midpoints, "Europe/Vienna", kVienna).value();
   EXPECT_EQ(minutes.rows.size(), 480U);
   EXPECT_EQ(minutes.print_every, 11U);
-  EXPECT_TRUE(has(minutes.note, "On paper"));
+  EXPECT_TRUE(has(minutes.note, "On paper every 11th row"));
+  const ReportTable pairs = steps_table(study("6min").midpoints, "Europe/Vienna", kVienna).value();
+  EXPECT_TRUE(has(pairs.note, "every 2nd row"));
   const ReportTable seconds = steps_table(study("1s").midpoints, "Europe/Vienna", kVienna).value();
   EXPECT_LE(seconds.rows.size(), 2000U);
   EXPECT_TRUE(has(seconds.note, "28800 steps"));
