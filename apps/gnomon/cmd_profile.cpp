@@ -362,8 +362,8 @@ void run(const Options& o) {
                      o.title.empty() ? title_of(o.models) : o.title,
                      std::string("gnomon ") + GNOMON_VERSION};
   Warnings warnings = scene.warnings;
-  if (!o.common.quiet) fmt::print("{}\n", place_line(loaded));
   Staging staging(o.output);
+  if (!o.common.quiet) fmt::print("{}\n", place_line(loaded));
   std::vector<ReportSection> sections;
   for (const Study& study : studies) {
     StudyDone done = run_study(o, all, study, timings, staging);

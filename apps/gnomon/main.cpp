@@ -50,10 +50,12 @@ namespace {
 
 // What people write for an option that has another name here.
 constexpr std::pair<std::string_view, std::string_view> kSynonyms[] = {
-    {"--timezone", "--tz"},    {"--time-zone", "--tz"},     {"--zone", "--tz"},
-    {"--out", "--output"},     {"--resolution", "--pixel"}, {"--latitude", "--site"},
-    {"--longitude", "--site"}, {"--lat", "--site"},         {"--lon", "--site"},
-    {"--location", "--site"},  {"--place", "--site"}};
+    {"--timezone", "--tz"},    {"--time-zone", "--tz"},   {"--zone", "--tz"},
+    {"--time", "--at"},        {"--time", "--from"},      {"--start", "--from"},
+    {"--begin", "--from"},     {"--end", "--to"},         {"--step", "--every"},
+    {"--interval", "--every"}, {"--out", "--output"},     {"--resolution", "--pixel"},
+    {"--latitude", "--site"},  {"--longitude", "--site"}, {"--lat", "--site"},
+    {"--lon", "--site"},       {"--location", "--site"},  {"--place", "--site"}};
 
 // ". Did you mean --date?" for the first thing on the command line that is no option or command.
 std::string did_you_mean(const CLI::App& app) {

@@ -21,6 +21,8 @@ TEST_F(Messages, OtherNamesOfOptionsLeadToOurs) {
                                     {"--zone", "--tz"},
                                     {"--out", "--output"},
                                     {"--resolution", "--pixel"},
+                                    {"--time", "--from"},
+                                    {"--step", "--every"},
                                     {"--lat", "--site LAT,LON"},
                                     {"--location", "--site LAT,LON"}}) {
     EXPECT_EQ(run(std::string("profile a.obj ") + said + " x"), 2);
