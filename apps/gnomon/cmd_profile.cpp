@@ -18,8 +18,10 @@
 #include "commands.h"
 #include "model_options.h"
 #include "picture_lights.h"
+#include "place_text.h"
 #include "progress.h"
 #include "report.h"
+#include "shadow_reach.h"
 #include "staging.h"
 #include "study_text.h"
 #include "summary.h"
@@ -194,6 +196,9 @@ StudyDone run_study(const Options& o, const Prepared& all, const Study& study, T
   const Profile profile = compute(o, all, study, stats);
   watch.stage("profile");
   Warnings warnings = study.samples.warnings;
+  const bool at_border = !camera && shadow_at_border(scene, all.receivers, [&](std::size_t k) {
+    return profile.shadow_ticks[k] > 0;
+  });
   if (std::find(profile.valid.begin(), profile.valid.end(), 1) == profile.valid.end()) {
     warn(warnings,
          "the view meets no receiver: every sample is nodata; check --bounds, --eye and --receive",
@@ -214,6 +219,7 @@ StudyDone run_study(const Options& o, const Prepared& all, const Study& study, T
   plan_caption.lines = {study.window, study.steps};
   plan_caption.software = all.software;
   plan_caption.attribution = o.attribution;
+  plan_caption.without_sample = without_sample(scene);
   const char* map_name = camera ? "hours.png" : "plan.png";
   const PlanRelief relief = camera ? PlanRelief{} : plan_relief(scene, all.receivers, threads);
   const std::filesystem::path map_path = path(map_name);
@@ -227,8 +233,7 @@ StudyDone run_study(const Options& o, const Prepared& all, const Study& study, T
   const ViewSamples picture = overlay(o, all, study);
   ViewCaption view_caption;
   view_caption.title = all.title;
-  view_caption.lines = {study.window,
-                        fmt::format("{} shadows laid over each other", picture.instants)};
+  view_caption.lines = {study.window, overlay_text(study.samples, picture.instants)};
   view_caption.software = all.software;
   view_caption.attribution = o.attribution;
   const std::filesystem::path view_path = path("view.png");
@@ -255,36 +260,21 @@ StudyDone run_study(const Options& o, const Prepared& all, const Study& study, T
                         outputs,
                         threads,
                         static_cast<std::size_t>(picture.instants),
-                        camera ? 0 : step_ms};
+                        camera ? 0 : step_ms,
+                        at_border};
   Warnings every = scene.warnings;
   append(every, warnings);
   take(write_text_file(summary_path, summary_json(summary, every)));
   if (!o.common.quiet) {
     fmt::print("{}\n{}; {}; the sun was up for {:.2f} h {}\n", all.title, study.window, study.steps,
                daylight_hours(profile), profile.days > 1 ? "a day" : "of it");
+    if (at_border) fmt::print("{}\n", kShadowAtBorder);
   }
   const double area = camera ? 0 : all.view.right.x * all.view.right.x;
-  return {warnings,
-          report_section({study.times, study.samples, profile, study.window, study.steps, area,
-                          step_ms, std::move(objects), map_path, view_path, picture.instants})};
-}
-
-// Every option, for the report.
-Json all_inputs(const Options& o) {
-  Json inputs = model_inputs_json(o.models);
-  const StudyTimes& t = o.time.times;
-  inputs["date"] = o.time.dates;
-  inputs["from"] = t.from.empty() ? Json("sunrise") : Json(t.from);
-  inputs["to"] = t.to.empty() ? Json("sunset") : Json(t.to);
-  inputs["every"] = t.every;
-  inputs["tz"] = t.zone;
-  inputs["view"] = wants_camera(o.view) ? "camera" : "plan";
-  inputs["pixel"] = o.view.pixel > 0 ? Json(o.view.pixel) : Json("chosen");
-  inputs["bounds"] = text_or_null(o.view.bounds);
-  inputs["eye"] = text_or_null(o.view.eye);
-  inputs["target"] = text_or_null(o.view.target);
-  inputs["isolines"] = o.isolines.empty() ? Json("chosen") : Json(o.isolines);
-  return inputs;
+  return {warnings, report_section({study.times, study.samples, profile, study.window, study.steps,
+                                    area, step_ms, std::move(objects), map_path, view_path,
+                                    overlay_text(study.samples, picture.instants), at_border,
+                                    all.loaded, o.models.load.ground})};
 }
 
 // One for each --date. Everything that can be refused is, before the model is read.
@@ -307,6 +297,17 @@ std::vector<StudyTimes> study_times(const Options& o) {
     all.back().date = date;
   }
   return all;
+}
+
+// Of all studies together, so that their maps are of the same frame.
+std::optional<ShadowReach> reach_of(const std::vector<Study>& studies) {
+  std::vector<Light> suns;
+  for (const Study& s : studies) {
+    for (const TimeSample& t : s.samples.midpoints) {
+      if (t.up) suns.push_back(t.light);
+    }
+  }
+  return shadow_reach(suns);
 }
 
 void run(const Options& o) {
@@ -333,10 +334,12 @@ void run(const Options& o) {
     study.steps = steps_text(t, study.samples);
     studies.push_back(std::move(study));
   }
+  check_place(scene.warnings, place, o.time.times.zone);
   watch.stage("read");
 
   const double azimuth = middle_azimuth(studies.front().samples);
-  const View view = camera ? make_camera(scene, o.view, azimuth, 1) : make_plan(scene, o.view);
+  const View view =
+      camera ? make_camera(scene, o.view, azimuth, 1) : make_plan(scene, o.view, reach_of(studies));
   ExactStats visibility;
   const Receivers receivers = visible_surfaces(scene, view, o.common.threads, &visibility);
   const Casters casters = prepare_casters(scene);
@@ -360,15 +363,19 @@ void run(const Options& o) {
                      std::string("gnomon ") + GNOMON_VERSION};
   Warnings warnings = scene.warnings;
   Staging staging(o.output);
+  if (!o.common.quiet) fmt::print("{}\n", place_line(loaded));
   std::vector<ReportSection> sections;
   for (const Study& study : studies) {
     StudyDone done = run_study(o, all, study, timings, staging);
     append(warnings, done.warnings);
     sections.push_back(std::move(done.section));
   }
-  take(write_report(staging.path("report.html"),
-                    make_report(loaded, all_inputs(o), all.title, o.time.times.zone, all.software,
-                                o.attribution, std::move(sections), warnings)));
+  take(write_report(
+      staging.path("report.html"),
+      make_report(loaded,
+                  report_inputs(o.models, o.time, o.view, o.isolines, view, scene.frame.origin),
+                  all.title, o.time.times.zone, all.software, o.attribution, std::move(sections),
+                  warnings)));
   for (const Study& study : studies) remove_other_kind(staging, study.folder);
   staging.publish();
 

@@ -18,7 +18,9 @@
 #include "commands.h"
 #include "light_options.h"
 #include "model_options.h"
+#include "place_text.h"
 #include "progress.h"
+#include "shadow_reach.h"
 #include "staging.h"
 #include "summary_parts.h"
 #include "view_options.h"
@@ -50,6 +52,10 @@ Counts count(const ShadowMask& mask) {
     if (state == ShadowMask::kNoSample) ++out.nodata;
   }
   return out;
+}
+
+std::string counted(std::size_t n, const char* what) {
+  return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
 }
 
 double degrees(double radians) { return std::round(radians / kDegree * 1e9) / 1e9; }
@@ -142,7 +148,11 @@ void run(const Options& o) {
   const Scene& scene = loaded.scene;
   const ChosenLight light = choose_light(o.light, scene);
   const double azimuth = light_azimuth(scene, light.light);
-  const View view = camera ? make_camera(scene, o.view, azimuth, 1) : make_plan(scene, o.view);
+  const View view = camera
+                        ? make_camera(scene, o.view, azimuth, 1)
+                        : make_plan(scene, o.view,
+                                    light.kind == LightKind::instant ? shadow_reach({light.light})
+                                                                     : std::nullopt);
 
   const Receivers receivers = visible_surfaces(scene, view, o.common.threads);
   const Casters casters = prepare_casters(scene);
@@ -153,11 +163,15 @@ void run(const Options& o) {
                         {o.common.threads, [&](double share) { bar.show(share); }, nullptr});
   }
   const Counts counts = count(mask);
+  const bool at_border = !camera && shadow_at_border(scene, receivers, [&](std::size_t k) {
+    return mask.state[k] == ShadowMask::kShadow;
+  });
   const double pixel = camera ? 0.0 : view.right.x;
   const double pixel_area = pixel * pixel;
 
   Warnings warnings = scene.warnings;
   append(warnings, light.warnings);
+  if (light.kind == LightKind::instant) check_place(warnings, *scene.frame.place, o.light.zone);
   if (casters.edges.vertices.empty())
     warn(warnings, "nothing casts a shadow: check --cast and --no-cast", "");
   if (counts.lit + counts.shadow == 0) {
@@ -179,6 +193,7 @@ void run(const Options& o) {
     caption.software = software;
     if (light.kind != LightKind::instant) caption.sun.clear();
     caption.attribution = o.attribution;
+    caption.without_sample = without_sample(scene);
     take(write_mask_picture(staging.path("mask.png"), mask, view, scene.frame, caption,
                             plan_relief(scene, receivers, o.common.threads), o.common.threads));
   }
@@ -225,6 +240,7 @@ void run(const Options& o) {
     json["result"]["lit_m2"] = static_cast<double>(counts.lit) * pixel_area;
     json["result"]["shadow_m2"] = static_cast<double>(counts.shadow) * pixel_area;
     json["result"]["outlines"] = outlines;
+    json["result"]["shadows_reach_border"] = at_border;
   }
   json["timings"] = {{"total", std::round(total * 1000) / 1000}};
   json["warnings"] = warnings_json(warnings);
@@ -237,14 +253,16 @@ void run(const Options& o) {
 
   if (o.common.quiet) return;
   print_warnings(warnings);
+  if (const std::string place = place_line(loaded); !place.empty()) fmt::print("{}\n", place);
   fmt::print("{}\n{}", title, light.words);
   if (light.kind != LightKind::point) fmt::print("; {}", sun_text(light));
   const double samples = static_cast<double>(std::max<std::size_t>(1, counts.lit + counts.shadow));
   fmt::print("\n{} of {} samples in shadow ({:.1f} %)", counts.shadow, counts.lit + counts.shadow,
              100 * static_cast<double>(counts.shadow) / samples);
   if (!camera) {
-    fmt::print(": {:.10g} m\u00b2 in {} outlines, seen from above",
-               static_cast<double>(counts.shadow) * pixel_area, outlines);
+    fmt::print(": {:.10g} m\u00b2 in {}, seen from above",
+               static_cast<double>(counts.shadow) * pixel_area, counted(outlines, "outline"));
+    if (at_border) fmt::print("\n{}", kShadowAtBorder);
   }
   fmt::print("\n{} x {} samples over {} triangles in {:.2f} s\n", view.width, view.height,
              scene.mesh.triangles.size(), total / 1000);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "commands.h"
+#include "place_text.h"
 #include "time_options.h"
 
 namespace gnomon::app {
@@ -168,7 +169,9 @@ void run(const Options& options) {
   else
     take(write_text_file(options.output, text));
 
-  if (!options.common.quiet) print_warnings(window.warnings);
+  Warnings warnings = window.warnings;
+  check_place(warnings, *place, report.times.zone);
+  if (!options.common.quiet) print_warnings(warnings);
 }
 
 }  // namespace

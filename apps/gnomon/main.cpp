@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <charconv>
 #include <csignal>
 #include <cstdio>
@@ -5,6 +6,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <gnomon/core/nearest_names.h>
@@ -46,6 +48,15 @@ void print_warnings(const Warnings& warnings) {
 
 namespace {
 
+// What people write for an option that has another name here.
+constexpr std::pair<std::string_view, std::string_view> kSynonyms[] = {
+    {"--timezone", "--tz"},    {"--time-zone", "--tz"},   {"--zone", "--tz"},
+    {"--time", "--at"},        {"--time", "--from"},      {"--start", "--from"},
+    {"--begin", "--from"},     {"--end", "--to"},         {"--step", "--every"},
+    {"--interval", "--every"}, {"--out", "--output"},     {"--resolution", "--pixel"},
+    {"--latitude", "--site"},  {"--longitude", "--site"}, {"--lat", "--site"},
+    {"--lon", "--site"},       {"--location", "--site"},  {"--place", "--site"}};
+
 // ". Did you mean --date?" for the first thing on the command line that is no option or command.
 std::string did_you_mean(const CLI::App& app) {
   const std::vector<CLI::App*> chosen = app.get_subcommands();
@@ -53,6 +64,10 @@ std::string did_you_mean(const CLI::App& app) {
   std::string wanted;
   for (const std::string& word : app.remaining(true)) {
     const bool option = word.starts_with("--");
+    if (!option && !chosen.empty() && chosen.front()->get_name() == "sun") {
+      return ". A place is said by its latitude and longitude: --site LAT,LON, such as --site "
+             "48.2,16.37";
+    }
     if (option != !chosen.empty()) continue;
     wanted = word.substr(0, word.find('='));
     break;
@@ -67,10 +82,22 @@ std::string did_you_mean(const CLI::App& app) {
     }
   }
   const std::set<std::string_view> views(names.begin(), names.end());
-  const std::string near = nearest_names(wanted, views, 1);
-  if (near.empty()) return "";
+  for (const auto& [said, meant] : kSynonyms) {
+    if (said == wanted && views.contains(meant))
+      return ". Did you mean " + std::string(meant) + (meant == "--site" ? " LAT,LON?" : "?");
+  }
+  // What is farther away is no slip of the keys.
+  const std::size_t farthest = std::max<std::size_t>(2, wanted.size() / 3);
+  const std::string near = nearest_names(wanted, views, 1, farthest);
+  if (near.empty()) return chosen.empty() ? ": there is no '" + wanted + "'" : std::string();
   return (chosen.empty() ? ": there is no '" + wanted + "'" : std::string()) + ". Did you mean " +
          near.substr(1, near.size() - 2) + "?";
+}
+
+// What to do about an error of the command line.
+std::string hint(const CLI::App& app, const CLI::ParseError& error) {
+  if (std::string_view(error.what()) == "--output is required") return ", such as -o scene.glb";
+  return did_you_mean(app);
 }
 
 }  // namespace
@@ -98,7 +125,7 @@ int main(int argc, char** argv) {
     std::fprintf(
         stderr,
         "gnomon: error: %s%s\nRun gnomon --help, or gnomon COMMAND --help, for what there is.\n",
-        e.what(), gnomon::app::did_you_mean(app).c_str());
+        e.what(), gnomon::app::hint(app, e).c_str());
     return 2;
   } catch (const std::exception& e) {
     const gnomon::app::SignalsWait wait;  // a program that is being stopped says so, and no more

@@ -36,11 +36,16 @@ std::vector<Light> picture_lights(const Samples& samples) {
 }
 
 double middle_azimuth(const Samples& s) {
-  Vec4 sum(0.0);
+  Vec4 sum(0.0), highest(0.0);
   for (const TimeSample& t : s.midpoints) {
-    if (t.up) sum += t.light;
+    if (!t.up) continue;
+    sum += t.light;
+    if (t.light.z > highest.z) highest = t.light;
   }
-  return std::atan2(sum.x, sum.y);
+  // On a long day in summer the low suns of morning and evening, on the pole's side, can outweigh
+  // those around noon: a camera there would look at walls in shade.
+  const bool behind = sum.x * highest.x + sum.y * highest.y < 0;
+  return behind ? std::atan2(highest.x, highest.y) : std::atan2(sum.x, sum.y);
 }
 
 }  // namespace gnomon::app

@@ -11,7 +11,8 @@
 #include <gnomon/profile/study_times.h>
 
 #include "model_options.h"
-#include "summary_parts.h"
+#include "time_options.h"
+#include "view_options.h"
 
 namespace gnomon::app {
 
@@ -25,14 +26,22 @@ struct StudyResults {
   std::uint64_t step_ms = 0;         // between classes of hours
   std::vector<ObjectHours> objects;  // empty for a camera
   std::filesystem::path map, view;   // pictures
-  int overlaid = 0;                  // shadows in `view`
+  std::string overlaid;              // study_text.h, of `view`
+  bool at_border = false;            // see shadow_reach.h
+  const LoadedScene& loaded;
+  std::string ground;  // --ground as given
 };
 
 // Of a range, the sun path and the steps of its first, middle and last date.
 ReportSection report_section(const StudyResults& results);
 
-// `inputs`: "inputs" of summary.json; what is not null becomes a line each.
-Report make_report(const LoadedScene& loaded, const Json& inputs, const std::string& title,
+// The options that were given, and when and how the study looks, in words.
+// `chosen`: the view; `origin`: the scene's.
+ReportFacts report_inputs(const ModelOptions& models, const TimeOptions& time,
+                          const ViewOptions& view, const std::string& isolines, const View& chosen,
+                          const Vec3& origin);
+
+Report make_report(const LoadedScene& loaded, ReportFacts inputs, const std::string& title,
                    const std::string& zone, const std::string& software,
                    const std::string& attribution, std::vector<ReportSection> sections,
                    const Warnings& warnings);

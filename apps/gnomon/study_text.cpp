@@ -53,6 +53,22 @@ std::string steps_text(const StudyTimes& t, const Samples& s) {
   return fmt::format("mean per day over {} days, {}", s.dates.size(), steps);
 }
 
+std::string overlay_text(const Samples& s, int shown) {
+  const std::string shadows =
+      shown == 1 ? std::string("1 shadow") : fmt::format("{} shadows laid over each other", shown);
+  if (s.dates.size() > 1) {
+    return fmt::format("{}, at times spread over {} days", shadows, s.dates.size());
+  }
+  const std::size_t all = s.instants.size();
+  const auto up = static_cast<std::size_t>(std::count_if(s.instants.begin(), s.instants.end(),
+                                                         [](const TimeSample& t) { return t.up; }));
+  if (static_cast<std::size_t>(shown) < up) {
+    return fmt::format("{}, at {} of the {} ends of steps", shadows, shown, up);
+  }
+  return shadows + ", at the ends of the steps" +
+         (up < all ? fmt::format(" ({} of {} without sun)", all - up, all) : std::string());
+}
+
 std::string folder_name(const std::string& date) {
   std::string name = date;
   std::replace(name.begin(), name.end(), '/', '_');

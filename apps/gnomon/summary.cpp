@@ -212,6 +212,7 @@ std::string summary_json(const Summary& s, const Warnings& warnings) {
   json["result"] = result_json(s.profile);
   json["result"]["isolines_every_h"] =
       s.step_ms == 0 ? Json() : Json(static_cast<double>(s.step_ms) / 3.6e6);
+  json["result"]["shadows_reach_border"] = s.shadows_reach_border;
   json["counts"] = {
       {"silhouette_edges", s.stats.sides},
       {"samples_decided_in_double_or_exactly", s.stats.close},

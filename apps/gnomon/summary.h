@@ -28,10 +28,11 @@ struct Summary {
   const CountStats& stats;
   const ExactStats& visibility;
   Timings timings;
-  std::vector<std::string> outputs;  // file names
-  int threads = 0;                   // asked for; 0: all
-  std::size_t picture_instants = 0;  // shadows laid over each other in view.png
-  std::uint64_t step_ms = 0;         // between isolines and classes of hours; 0: a camera has none
+  std::vector<std::string> outputs;   // file names
+  int threads = 0;                    // asked for; 0: all
+  std::size_t picture_instants = 0;   // shadows laid over each other in view.png
+  std::uint64_t step_ms = 0;          // between isolines and classes of hours; 0: a camera has none
+  bool shadows_reach_border = false;  // see shadow_reach.h
 };
 
 std::string summary_json(const Summary& summary, const Warnings& warnings);

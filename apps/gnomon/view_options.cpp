@@ -24,7 +24,15 @@ constexpr std::array kPixelSizes = {0.05, 0.1, 0.2,  0.25, 0.5,  1.0,
 constexpr double kAutoPixels = 2000;  // on the longer side
 constexpr double kBytesPerSample =
     64;  // of everything that a profile keeps per sample, at its peak
-constexpr double kFarthestShadow = 30;         // heights of the model
+constexpr double kFarthestShadow = 30;  // heights of the model
+// Around the default map, where the shadows of the study leave less on a side: a street's width.
+constexpr double kLeastMargin = 20;  // metres
+// Beyond the tips of shadows, in heights of the model: else they would touch the border of the map.
+// The ground reaches 6 heights (load_scene.h), the longest shadow that is framed 5.7.
+constexpr double kBeyondShadows = 0.1;
+// A model so many times as wide as it is high is a part of a city: what stands around it is
+// missing, and the shadows that fall there would be as well.
+constexpr double kCityHeights = 8;
 constexpr double kEyeAltitude = 42 * kDegree;  // of the automatic camera above the horizon
 constexpr double kEyeBesideSun =
     35 * kDegree;  // and to the right of the sun, so that shadows are seen
@@ -117,8 +125,10 @@ void add_view_options(CLI::App& command, ViewOptions& o) {
       ->check(positive_number())
       ->group(group);
   command
-      .add_option("--bounds", o.bounds,
-                  "Plan: x0,y0,x1,y1 in the model's coordinates (default: the model and a margin)")
+      .add_option(
+          "--bounds", o.bounds,
+          "Plan: x0,y0,x1,y1 in the model's coordinates (default: the model and, of few buildings, "
+          "the shadows of a sun at least 10 degrees high)")
       ->group(group);
   command.add_option("--eye", o.eye, "Camera: X,Y,Z in the model's coordinates (default: chosen)")
       ->group(group);
@@ -160,6 +170,12 @@ Box model_box(const Scene& scene) {
   return box;
 }
 
+std::string without_sample(const Scene& scene) {
+  const bool all = std::all_of(scene.surfaces.begin(), scene.surfaces.end(),
+                               [](const Surface& s) { return s.receives; });
+  return all ? "no surface" : "not evaluated";
+}
+
 std::optional<Bounds2> parse_bounds(const std::string& text) {
   if (text.empty()) return {};
   const std::vector<double> v = numbers(text, 4, "--bounds", "x0,y0,x1,y1");
@@ -188,16 +204,43 @@ bool wants_camera(const ViewOptions& o) {
   return o.kind == "camera" || camera_options;
 }
 
-View make_plan(const Scene& scene, const ViewOptions& o) {
+namespace {
+
+// The model and room for its shadows; of the model alone where there is no ground around it.
+Bounds2 default_bounds(const Scene& scene, const Box& box,
+                       const std::optional<ShadowReach>& reach) {
+  if (!has_made_ground(scene)) return {box.lo.x, box.lo.y, box.hi.x, box.hi.y};
+  const double side = std::max(box.hi.x - box.lo.x, box.hi.y - box.lo.y);
+  const double height = box.hi.z - box.lo.z;
+  // Three heights: the shadows of a sun 18 degrees high.
+  const double usual = 3 * height;
+  if (reach && side < kCityHeights * height) {
+    const double least = std::min(kLeastMargin, usual);
+    const auto margin = [&](double heights) {
+      return std::max(least, (heights + kBeyondShadows) * height);
+    };
+    return {box.lo.x - margin(reach->west), box.lo.y - margin(reach->south),
+            box.hi.x + margin(reach->east), box.hi.y + margin(reach->north)};
+  }
+  // Of a city no more than 50 m or a twentieth of it.
+  const bool few_buildings = usual >= side;
+  const double most = few_buildings ? usual : std::max(50.0, 0.05 * side);
+  const double margin = std::min(usual, most);
+  return {box.lo.x - margin, box.lo.y - margin, box.hi.x + margin, box.hi.y + margin};
+}
+
+}  // namespace
+
+View make_plan(const Scene& scene, const ViewOptions& o, const std::optional<ShadowReach>& reach) {
   const Box box = model_box(scene);
   const Vec3 origin = scene.frame.origin;
   Bounds2 b;
   if (const std::optional<Bounds2> given = parse_bounds(o.bounds)) {
     b = {given->x0 - origin.x, given->y0 - origin.y, given->x1 - origin.x, given->y1 - origin.y};
     // A sun 2 degrees high throws shadows 29 times as long as things are high.
-    const double reach = kFarthestShadow * (box.hi.z - box.lo.z);
-    if (b.x0 > box.hi.x + reach || b.x1 < box.lo.x - reach || b.y0 > box.hi.y + reach ||
-        b.y1 < box.lo.y - reach) {
+    const double farthest = kFarthestShadow * (box.hi.z - box.lo.z);
+    if (b.x0 > box.hi.x + farthest || b.x1 < box.lo.x - farthest || b.y0 > box.hi.y + farthest ||
+        b.y1 < box.lo.y - farthest) {
       throw Failure(
           fmt::format("--bounds {} lie far from the model, which reaches from {:.2f},{:.2f} to "
                       "{:.2f},{:.2f} in its coordinates",
@@ -205,14 +248,7 @@ View make_plan(const Scene& scene, const ViewOptions& o) {
                       box.hi.y + origin.y));
     }
   } else {
-    // Room for shadows on the ground beyond the model: three heights of it (a sun 18 degrees high).
-    // Of a city, whose surroundings are missing anyway, no more than 50 m or a twentieth of it.
-    const double side = std::max(box.hi.x - box.lo.x, box.hi.y - box.lo.y);
-    const double shadow = 3 * (box.hi.z - box.lo.z);
-    const bool few_buildings = shadow >= side;
-    const double most = few_buildings ? shadow : std::max(50.0, 0.05 * side);
-    const double margin = has_made_ground(scene) ? std::min(shadow, most) : 0;
-    b = {box.lo.x - margin, box.lo.y - margin, box.hi.x + margin, box.hi.y + margin};
+    b = default_bounds(scene, box, reach);
   }
   double pixel = o.pixel;
   if (!(pixel > 0)) {

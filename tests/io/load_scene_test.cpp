@@ -308,7 +308,7 @@ TEST(LoadScene, OnlyWhatIsNamedCastsAndReceives) {
   expect_failure({file("box.json", box())}, options, {"--receive", "\"RoofSurface\""});
 }
 
-TEST(LoadScene, TheGroundReachesThreeHeightsAroundTheModel) {
+TEST(LoadScene, TheGroundReachesSixHeightsAroundTheModel) {
   const Files file;
   LoadOptions options;
   options.ground = "40";
@@ -317,7 +317,7 @@ TEST(LoadScene, TheGroundReachesThreeHeightsAroundTheModel) {
     for (const Vec3& p : s.mesh.positions) low = std::min(low, p.x);
     return low;
   };
-  EXPECT_LE(reach(load({file("box.json", box())}, options).scene), -5 - 3 * 20);
+  EXPECT_LE(reach(load({file("box.json", box())}, options).scene), -5 - 6 * 20);
   options.ground_extent = Bounds2{1100, 340600, 1310, 340810};
   EXPECT_LE(reach(load({file("box.json", box())}, options).scene), -105);
   options.ground_extent = Bounds2{1, 1, 0, 2};

@@ -124,7 +124,12 @@ TEST(DrawPlan, NamesTheGreyOnlyWhereThereIsSome) {
   Profile p = even(400, 300, 0);
   EXPECT_EQ(count(draw_plan(p, plan(400, 300), {}, kCaption), kNoDataColour), 0U);
   p.valid[0] = 0;
-  EXPECT_GT(count(draw_plan(p, plan(400, 300), {}, kCaption), kNoDataColour), 100U);
+  const Picture grey = draw_plan(p, plan(400, 300), {}, kCaption);
+  EXPECT_GT(count(grey, kNoDataColour), 100U);
+  PlanCaption receive = kCaption;
+  receive.without_sample = "not evaluated";
+  EXPECT_FALSE(draw_plan(p, plan(400, 300), {}, receive).pixels == grey.pixels)
+      << "surfaces that do not receive are surfaces";
 }
 
 TEST(DrawPlan, DrawsAnyShapeAndTheNight) {

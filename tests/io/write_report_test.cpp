@@ -223,7 +223,7 @@ TEST(HoursTable, CountsEverySampleOnce) {
   EXPECT_EQ(t.bars[4].length, 2);  // exactly one hour belongs to [1, 1.25)
   EXPECT_EQ(t.rows[9][0], "2.25 to 2.5 h");
   EXPECT_EQ(t.bars[9].length, 1);  // the last class includes its end
-  EXPECT_TRUE(has(t.note, "1 without one"));
+  EXPECT_TRUE(has(t.note, "1 others are not counted"));
 }
 
 TEST(HoursTable, IsPerDayOverSeveralDays) {
@@ -266,7 +266,9 @@ TEST(StepsTable, ThinsLongTablesAndSaysSo) {
       steps_table(study("1min").midpoints, "Europe/Vienna", kVienna).value();
   EXPECT_EQ(minutes.rows.size(), 480U);
   EXPECT_EQ(minutes.print_every, 11U);
-  EXPECT_TRUE(has(minutes.note, "On paper"));
+  EXPECT_TRUE(has(minutes.note, "On paper every 11th row"));
+  const ReportTable pairs = steps_table(study("6min").midpoints, "Europe/Vienna", kVienna).value();
+  EXPECT_TRUE(has(pairs.note, "every 2nd row"));
   const ReportTable seconds = steps_table(study("1s").midpoints, "Europe/Vienna", kVienna).value();
   EXPECT_LE(seconds.rows.size(), 2000U);
   EXPECT_TRUE(has(seconds.note, "28800 steps"));

@@ -120,7 +120,7 @@ TEST(StudyTimes, TakeTheWholePolarDayAndRefuseThePolarNight) {
   const Samples dark =
       samples(times("2024-12-21", "11:00", "13:00", "1h", "Europe/Oslo"), kSvalbard);
   EXPECT_FALSE(dark.midpoints[0].up || dark.midpoints[1].up);
-  ASSERT_TRUE(warns(dark, "below the horizon"));
+  ASSERT_TRUE(warns(dark, "the sun is down"));
   EXPECT_EQ(dark.warnings[0].count, 2u);
   EXPECT_TRUE(local_day("2024-12-21", "Europe/Oslo", kSvalbard).value().sun.polar_night);
   EXPECT_TRUE(local_day("2024-06-21", "Europe/Oslo", kSvalbard).value().sun.polar_day);
@@ -165,7 +165,7 @@ TEST(StudyTimes, CrossTheClockChangeInElapsedTime) {
 
 TEST(StudyTimes, RefuseATimeThatTheClockSkipsAndTakeTheEarlierOfTwo) {
   const std::string skipped = error(times("2024-03-31", "02:30", "12:00", "1h", "Europe/Vienna"));
-  EXPECT_TRUE(contains(skipped, "2024-03-31T02:30:00")) << skipped;
+  EXPECT_TRUE(contains(skipped, "2024-03-31 02:30:00")) << skipped;
   EXPECT_TRUE(contains(skipped, "03:00:00 or later")) << skipped;
   const Samples twice = samples(times("2024-10-27", "02:30", "12:00", "30min", "Europe/Vienna"));
   EXPECT_EQ(iso_text(twice.begin), "2024-10-27T00:30:00Z");

@@ -27,7 +27,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string nearest_names(std::string_view wanted_name, const std::set<std::string_view>& names,
-                          std::size_t most) {
+                          std::size_t most, std::size_t farthest) {
   std::string wanted = lower_case(wanted_name);
   std::erase_if(wanted, [](char c) { return c == '*' || c == '?'; });
   std::vector<std::pair<std::size_t, std::string_view>> ranked;
@@ -37,6 +37,7 @@ std::string nearest_names(std::string_view wanted_name, const std::set<std::stri
     ranked.emplace_back(inside ? 0 : edit_distance(wanted, low), name);
   }
   std::sort(ranked.begin(), ranked.end());
+  std::erase_if(ranked, [&](const auto& r) { return r.first > farthest; });
   std::string list;
   for (std::size_t k = 0; k < std::min(most, ranked.size()); ++k) {
     list += (k ? ", \"" : "\"") + std::string(ranked[k].second) + '"';

@@ -21,8 +21,9 @@ namespace gnomon {
 namespace {
 
 // How far the ground reaches around the model where nothing else is asked for: the shadow of a
-// model is three times as long as it is high when the sun stands 18 degrees above the horizon.
-constexpr double kGroundHeights = 3.0;
+// model is 1/tan(10 degrees) = 5.7 times as long as it is high when the sun stands 10 degrees above
+// the horizon, the lowest that the program's default map makes room for.
+constexpr double kGroundHeights = 6.0;
 constexpr double kLeastGround = 20.0;  // metres, for models that are flat
 
 // Files farther apart than this are not one scene (metres): a scene is flat and has one sun, but

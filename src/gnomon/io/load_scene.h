@@ -53,7 +53,7 @@ struct LoadOptions {
   std::vector<std::string> above_ground =
       {};                                     // globs over rasters' names: heights above the ground
   std::string ground = "auto";                // see GroundOptions::mode
-  std::optional<Bounds2> ground_extent = {};  // scene CRS coordinates; empty: the model's box and 3
+  std::optional<Bounds2> ground_extent = {};  // scene CRS coordinates; empty: the model's box and 6
                                               // times its height around it
   std::vector<std::string> cast = {}, no_cast = {}, receive = {};  // globs, see scene/select.h
   // Told what begins now, for people: "reading terrain.tif".

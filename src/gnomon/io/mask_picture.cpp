@@ -49,7 +49,7 @@ Result<FileWritten> write_mask_picture(const std::filesystem::path& path, const 
   assert(mask.width == view.width && mask.height == view.height);
   std::vector<Swatch> legend{{kLitColour, "lit"}, {kShadowColour, "in shadow"}};
   if (std::find(mask.state.begin(), mask.state.end(), ShadowMask::kNoSample) != mask.state.end()) {
-    legend.push_back({kNoDataColour, "no surface"});
+    legend.push_back({kNoDataColour, caption.without_sample});
   }
   const Picture map = draw_mask(mask, relief, threads);
   return write_png(path, draw_map_page(map, "Shadow", legend, view, frame, caption), threads);

@@ -86,7 +86,8 @@ void draw_swatch(Canvas& canvas, double x, double y, const Swatch& swatch, doubl
 }
 
 // Returns the height used.
-double draw_legend(Canvas& canvas, const Layout& at, const Profile& profile, double length) {
+double draw_legend(Canvas& canvas, const Layout& at, const Profile& profile,
+                   const std::string& without_sample, double length) {
   const double em = at.em, hours = daylight_hours(profile);
   const double x = std::round(at.side_x);
   double y = at.side_y;
@@ -124,7 +125,7 @@ double draw_legend(Canvas& canvas, const Layout& at, const Profile& profile, dou
   }
   if (any_without_sample(profile)) {
     y = std::round(y + 0.9 * em);
-    draw_swatch(canvas, x, y, {kNoDataColour, "no surface"}, em);
+    draw_swatch(canvas, x, y, {kNoDataColour, without_sample}, em);
     y += std::round(em);
   }
   return y - at.side_y;
@@ -308,7 +309,7 @@ Picture draw_plan(const Profile& profile, const View& view, const Frame& frame,
                         const double bar =
                             at.beside ? std::clamp(0.42 * at.height, 12 * at.em, 20 * at.em)
                                       : 22 * at.em;
-                        draw_legend(canvas, at, profile, bar);
+                        draw_legend(canvas, at, profile, caption.without_sample, bar);
                       }};
   return draw_page(draw_hours(profile, relief, threads), view, frame, caption, legend);
 }

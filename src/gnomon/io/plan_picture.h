@@ -23,6 +23,9 @@ struct PlanCaption {
   std::string software;  // "gnomon 0.1.0"
   std::string sun = "sun: apparent altitude, with refraction";
   std::string attribution;  // of the model: "Stadt Wien, CC BY 4.0"
+  // The legend's word for pixels without a sample: "not evaluated" where some surfaces do not
+  // receive.
+  std::string without_sample = "no surface";
 };
 
 // The map is at most 1600 pixels long, averaged over area where there are more samples, enlarged by

@@ -32,6 +32,13 @@ std::string share_text(double share) {
   return fmt::format("{:.1f} %", 100 * share);
 }
 
+// "2nd", "3rd", "11th", "21st".
+std::string ordinal(std::size_t n) {
+  const bool teen = n / 10 % 10 == 1;
+  const std::size_t last = teen ? 0 : n % 10;
+  return fmt::format("{}{}", n, last == 1 ? "st" : last == 2 ? "nd" : last == 3 ? "rd" : "th");
+}
+
 const char* compass(double azimuth) {
   static constexpr const char* kNames[] = {"N", "NNE", "NE", "ENE", "E", "ESE", "SE", "SSE",
                                            "S", "SSW", "SW", "WSW", "W", "WNW", "NW", "NNW"};
@@ -115,16 +122,17 @@ ReportTable hours_table(const Profile& profile, double sample_area, std::uint64_
     table.rows.push_back(std::move(row));
     table.bars.push_back({count, hours_colour(daylight > 0 ? (from + to) / 2 / daylight : 0)});
   }
-  table.note =
-      fmt::format("Each class begins with its lower hours. {} samples with a surface", samples);
+  table.note = fmt::format(
+      "A class holds its lower bound and not its upper one; the last holds both. {} samples on "
+      "receiving surfaces",
+      samples);
   if (sample_area > 0) {
     table.note += fmt::format(", {} m\u00b2 each, as seen from above: {} m\u00b2",
                               fmt::format("{:.4g}", sample_area),
                               area_text(static_cast<double>(samples) * sample_area));
   }
   const std::size_t empty = profile.valid.size() - samples;
-  table.note += empty == 0 ? "; there is none without."
-                           : fmt::format("; {} without one are not counted.", empty);
+  table.note += empty == 0 ? "." : fmt::format("; {} others are not counted.", empty);
   return table;
 }
 
@@ -229,16 +237,17 @@ Result<ReportTable> steps_table(const std::vector<TimeSample>& steps, const std:
       "sun's centre with refraction.";
   if (down > 0)
     table.note +=
-        fmt::format(" {} of {} steps have the sun below the horizon.", down, steps.size());
+        fmt::format(" In {} of {} steps the sun is below the horizon.", down, steps.size());
   table.print_every = (table.rows.size() + kMostPrinted - 1) / kMostPrinted;
   table.print_every = std::max<std::size_t>(table.print_every, 1);
   if (stride > 1) {
-    table.note += fmt::format(" Every {}th of {} steps is listed; summary.json has all of them.",
-                              stride, steps.size());
+    table.note += fmt::format(" Every {} of {} steps is listed; summary.json has all of them.",
+                              ordinal(stride), steps.size());
   }
   if (table.print_every > 1) {
-    table.note += fmt::format(" On paper every {}th row of {} is printed; the file has {}.",
-                              table.print_every, table.rows.size(), stride > 1 ? "more" : "all");
+    table.note +=
+        fmt::format(" On paper every {} row of {} is printed; the file has {}.",
+                    ordinal(table.print_every), table.rows.size(), stride > 1 ? "more" : "all");
   }
   return table;
 }

@@ -162,13 +162,12 @@ void add_header(std::string& out, const Report& report) {
   if (!report.subtitle.empty())
     out += fmt::format("<p class=\"subtitle\">{}</p>\n", html_text(report.subtitle));
   const Place& place = report.place;
-  add_facts(
-      out, {{"Place",
-             fmt::format("{}, {} (WGS 84), {:.1f} m above sea level", latitude_text(place.latitude),
-                         longitude_text(place.longitude), place.height)},
-            {"Coordinates", report.crs.empty() ? "local metres, no reference system" : report.crs},
-            {"North", north_text(report.true_north)},
-            {"Clock", report.zone == "solar" ? "true solar time" : report.zone}});
+  add_facts(out,
+            {{"Place", fmt::format("{}, {} (WGS 84)", latitude_text(place.latitude),
+                                   longitude_text(place.longitude))},
+             {"Coordinates", report.crs.empty() ? "local metres, no reference system" : report.crs},
+             {"North", north_text(report.true_north)},
+             {"Clock", report.zone == "solar" ? "true solar time" : report.zone}});
   // The warnings stand at the end; nobody should miss them.
   out += fmt::format("<p><a href=\"#warnings\">{}</a></p>\n",
                      report.warnings.empty() ? "No warnings"

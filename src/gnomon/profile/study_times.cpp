@@ -48,9 +48,11 @@ std::optional<milliseconds> read_clock(std::string_view text) {
   return time;
 }
 
-// For messages.
+// For messages: "2024-06-10 17:00:00 Europe/Vienna".
 std::string on_clock(ClockTime clock, const std::string& zone) {
-  return iso_text(clock) + " " + zone;
+  std::string text = iso_text(ClockTime(std::chrono::round<seconds>(clock)));
+  text[text.find('T')] = ' ';
+  return text + " " + (zone == "solar" ? "true solar time" : zone);
 }
 
 struct Date {
@@ -191,8 +193,9 @@ Result<DayWindow> day_window(const StudyTimes& times, const Place& place, const 
   window.begin = begin.value().utc;
   window.end = end.value().utc;
   if (window.begin >= window.end)
-    return Error{"the window is empty: it begins at " + iso_text(window.begin) + " and ends at " +
-                 iso_text(window.end) + "; give --from earlier than --to, on the date's own clock"};
+    return Error{"the window is empty: it begins at " + on_clock(begin.value().clock, times.zone) +
+                 " and ends at " + on_clock(end.value().clock, times.zone) +
+                 "; give --from earlier than --to, on the date's own clock"};
 
   const bool solar = times.zone == "solar";
   const milliseconds length =
@@ -234,7 +237,7 @@ Result<DayWindow> day_window(const StudyTimes& times, const Place& place, const 
 
 // Adds the steps of the study's `day`-th date.
 void add_day(Samples& samples, const DayWindow& on, std::size_t day, const Place& place,
-             double true_north, const Atmosphere& air) {
+             const std::string& zone, double true_north, const Atmosphere& air) {
   const StudyWindow& window = on.window;
   if (samples.midpoints.empty()) samples.begin = window.begin;
   samples.end = window.end;
@@ -264,11 +267,13 @@ void add_day(Samples& samples, const DayWindow& on, std::size_t day, const Place
     samples.midpoints.push_back(sample(t + length / 2, length, k, k + 1));
     samples.instants.push_back(sample(t, milliseconds(0), k, k));
     const TimeSample& middle = samples.midpoints.back();
-    if (!middle.up && nights++ == 0) first_night = iso_text(middle.utc);
+    if (!middle.up && nights++ == 0)
+      first_night = on_clock(utc_to_clock(zone, place, middle.utc).value(), zone);
   }
   samples.instants.push_back(sample(window.end, milliseconds(0), steps, steps));
   warn(samples.warnings,
-       "the sun is below the horizon in the middle of this step: the step contributes nothing",
+       "the sun is down in the middle of a step: the step counts as night, neither as sun nor as "
+       "shadow; the last one before sunset often does",
        first_night, nights);
 }
 
@@ -330,7 +335,7 @@ Result<Samples> study_samples(const StudyTimes& times, const Place& place, doubl
            "the sun does not rise on this date: it counts as a day without daylight", of_day.date);
       continue;
     }
-    add_day(samples, found.value(), k, place, true_north, air);
+    add_day(samples, found.value(), k, place, times.zone, true_north, air);
     if (static_cast<std::int64_t>(samples.midpoints.size()) > kMostSteps)
       return Error{"the step '" + times.every + "' cuts the dates '" + times.date +
                    "' into more than " + std::to_string(kMostSteps) +
