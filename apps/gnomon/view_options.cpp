@@ -299,13 +299,24 @@ View make_camera(const Scene& scene, const ViewOptions& o, double sun_azimuth, i
                top = glm::cross(right, -back);
     const double tan_v = std::tan(fov / 2), tan_h = tan_v * width / height;
     double distance = 0;  // least at which all corners of the box are in the picture
-    for (int k = 0; k < 8; ++k) {
-      const Vec3 corner((k & 1) != 0 ? box.hi.x : box.lo.x, (k & 2) != 0 ? box.hi.y : box.lo.y,
-                        (k & 4) != 0 ? box.hi.z : box.lo.z);
+    const auto show = [&](const Vec3& corner) {
       const Vec3 d = corner - target;
       const double beside =
           std::max(std::fabs(glm::dot(d, right)) / tan_h, std::fabs(glm::dot(d, top)) / tan_v);
       distance = std::max(distance, beside + glm::dot(d, back));
+    };
+    for (int k = 0; k < 8; ++k) {
+      show({(k & 1) != 0 ? box.hi.x : box.lo.x, (k & 2) != 0 ? box.hi.y : box.lo.y,
+            (k & 4) != 0 ? box.hi.z : box.lo.z});
+    }
+    // Around a lone tower some ground, on which its shadows are seen: half as far as it is high.
+    if (o.bounds.empty() && has_made_ground(scene)) {
+      const Vec3 middle = (box.lo + box.hi) * 0.5;
+      const double far = 0.5 * (box.hi.z - box.lo.z);
+      for (int k = 0; k < 4; ++k) {
+        show({middle.x + ((k & 1) != 0 ? far : -far), middle.y + ((k & 2) != 0 ? far : -far),
+              box.lo.z});
+      }
     }
     eye = target + back * (distance * 1.02);  // a little air around it
   }

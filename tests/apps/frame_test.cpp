@@ -103,6 +103,7 @@ TEST_F(Frame, OfACameraOnALongDayLooksFromWhereTheSunIsHigh) {
       << err_;
   const auto eye = summary()["view"]["definition"]["eye"];
   EXPECT_LT(eye[1].get<double>() / eye[3].get<double>(), -20) << "south of the tower";
+  EXPECT_GT(eye[2].get<double>() / eye[3].get<double>(), 140) << "with ground around it";
 }
 
 TEST_F(Frame, OfALampIsThreeHeightsWide) {
