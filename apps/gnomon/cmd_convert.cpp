@@ -4,6 +4,7 @@
 #include <memory>
 
 #include <fmt/format.h>
+#include <gnomon/core/lower_case.h>
 #include <gnomon/io/atomic_file.h>
 #include <gnomon/io/write_gltf.h>
 #include <gnomon/io/write_obj.h>
@@ -25,9 +26,7 @@ struct Options {
 };
 
 std::string lower_extension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-  return extension;
+  return lower_case(path.extension().string());
 }
 
 void check_output(const Options& o) {

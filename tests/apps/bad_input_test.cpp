@@ -292,7 +292,7 @@ TEST_F(BadInput, FaultyElementsAreNamed) {
       {"t.glb", glb(kInf), "--site 48,16", {"inf"}},
       {"t.geojson", geojson("NaN"), "", {"not finite"}},
       {"t.geojson", geojson("1e999"), "", {"not finite"}},
-      {"t.geojson", geojson("\"a\""), "", {"feature 0", "whole"}},
+      {"t.geojson", geojson("\"a\""), "", {"feature 1 (id Tower)", "whole"}},
       {"t.geojson", geojson("16.3", "Point"), "", {"polygons"}},
       {"t.geojson", R"({"type":"FeatureCollection","features":[]})", "", {"no features"}},
       {"t.geojson", R"({"type":"FeatureCollection","features":[)", "", {"Unterminated"}},

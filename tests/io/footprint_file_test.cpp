@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include <gnomon/io/crs.h>
+#include <gnomon/io/geojson_fault.h>
 
 #include "io/footprint_test_files.h"
 
@@ -257,7 +258,7 @@ TEST_F(FootprintLayer, DamagedFilesAreRefusedByNameAndNothingIsPrinted) {
   expect("bad.geojson", "check that the file is whole");
   write("second.geojson", collection({house(R"("height":3)"),
                                       feature(R"("height":3)", polygon(R"([["east",0],[1,1]])"))}));
-  expect("second.geojson", "one of its features cannot be read");
+  expect("second.geojson", "feature 2 cannot be read");
   write("noise.gpkg", "this is no database");
   expect("noise.gpkg", "check that the file is whole");
   write("empty.geojson", R"({"type":"FeatureCollection","features":[]})");
@@ -285,6 +286,22 @@ TEST_F(FootprintLayer, NamesThatMeanAddressesToGdalAreNotOpened) {
   const auto m = read_footprints(folder_ / "a.vrt", {}, "", "", {});
   ASSERT_FALSE(m);
   EXPECT_TRUE(has(m.error().message, "cannot be read as GeoJSON")) << m.error().message;
+}
+
+TEST(GeoJsonFault, TheFirstFeatureWhoseCoordinatesAreNoneIsNamed) {
+  const auto found = [](const std::string& geometries) {
+    return first_bad_feature(R"({"features":[{"geometry":{"coordinates":[[[1,2.5],[3,4]]]}},)"
+                             R"({"id":"way/7","geometry":)" +
+                             geometries + "}]}");
+  };
+  EXPECT_EQ(found(R"({"coordinates":[[[1,2],[3,"x"]]]})"), "feature 2 (id way/7)");
+  EXPECT_EQ(found(R"({"coordinates":[[[1,null]]]})"), "feature 2 (id way/7)");
+  EXPECT_EQ(found(R"({"coordinates":7})"), "feature 2 (id way/7)");
+  EXPECT_EQ(found(R"({"coordinates":[[[[[1]]]]]})"), "feature 2 (id way/7)");
+  EXPECT_EQ(found(R"({"geometries":[{"coordinates":[1,{}]}]})"), "feature 2 (id way/7)");
+  EXPECT_EQ(found(R"({"coordinates":[[[[1,2]]]]})"), "");
+  EXPECT_EQ(found("null"), "");
+  EXPECT_EQ(first_bad_feature("{"), "");
 }
 
 TEST(FootprintFormat, FilesAreKnownByTheirContent) {

@@ -20,6 +20,7 @@
 #include <gnomon/core/lower_case.h>
 #include <gnomon/io/gdal_support.h>
 #include <gnomon/io/geojson_booleans.h>
+#include <gnomon/io/geojson_fault.h>
 #include <gnomon/io/osm_tags.h>
 #include <gnomon/io/read_text.h>
 
@@ -177,7 +178,7 @@ Result<OGRLayerH> choose_layer(GDALDatasetH dataset, const std::string& path,
     if (names.size() > 1) {
       return Error{
           fmt::format("{}: it has several layers with polygons, {}; name the one with the "
-                      "buildings.",
+                      "buildings with --layer.",
                       path, listed(names))};
     }
     if (found) return found;
@@ -382,11 +383,12 @@ Result<FootprintFile> read_footprint_file(const std::filesystem::path& path,
     if (feature.has_geometry) add_polygons(geometry, crs.swapped, feature);
   }
   if (errors.first()) {
-    // GDAL reads all features of some formats at once, and says of none of them that it is the one.
-    const std::string where =
-        file.features.empty()
-            ? "one of its features cannot be read"
-            : fmt::format("it cannot be read beyond feature {}", file.features.size());
+    std::string where = fmt::format("it cannot be read beyond feature {}", file.features.size());
+    if (file.features.empty()) {  // GDAL reads all of GeoJSON at once
+      const auto whole = read_text(path);
+      where = whole ? first_bad_feature(whole.value()) : "";
+      where = (where.empty() ? "one of its features" : where) + " cannot be read";
+    }
     return Error{fmt::format("{}: layer {}: {} ({}); repair it, or check that the file is whole.",
                              path.string(), in_quotes(file.layer), where, reason_of(errors))};
   }

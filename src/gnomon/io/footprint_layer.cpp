@@ -253,7 +253,8 @@ class Reader {
     if (without_height_ > 0) {
       return {fmt::format(
           "{}: none of its {} footprints has a height (looked for {}); its attributes: {}; "
-          "name the one with the height or the number of storeys.",
+          "name the one with the height (--height-attribute) or the number of storeys "
+          "(--floors-attribute).",
           layer(), without_height_, looked_for(), attributes())};
     }
     const Warnings& warnings = builder_.model.warnings;
