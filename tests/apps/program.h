@@ -41,6 +41,14 @@ class Program : public ::testing::Test {
     return s.str();
   }
   std::string results() const { return (folder_ / "results").string(); }
+  // A box in local metres, 10 x 10 x 5 m, which can stand anywhere.
+  std::string house() const {
+    const std::string path = (folder_ / "house.obj").string();
+    std::ofstream(path)
+        << "v 0 0 0\nv 9 0 0\nv 9 9 0\nv 0 9 0\nv 0 0 5\nv 9 0 5\nv 9 9 5\nv 0 9 5\n"
+           "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+    return path + " --up z";
+  }
   std::string profile(const std::string& more) const {
     return "profile " + vienna_ + " " + more + " -o " + results();
   }

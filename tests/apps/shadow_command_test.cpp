@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <fstream>
 
 #include <nlohmann/json.hpp>
 
@@ -16,14 +15,6 @@ class ShadowCommand : public gnomon::testing::Program {
  protected:
   std::string shadow(const std::string& more) const {
     return "shadow " + vienna_ + " " + more + " -o " + results();
-  }
-  // A box in local metres, 10 x 10 x 5 m, which can stand anywhere.
-  std::string house() const {
-    const std::string path = (folder_ / "house.obj").string();
-    std::ofstream(path)
-        << "v 0 0 0\nv 9 0 0\nv 9 9 0\nv 0 9 0\nv 0 0 5\nv 9 0 5\nv 9 9 5\nv 0 9 5\n"
-           "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
-    return path + " --up z";
   }
   std::vector<std::string> names() const {
     std::vector<std::string> found;
