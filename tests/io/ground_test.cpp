@@ -425,6 +425,18 @@ TEST(Ground, DoesNotRiseToTheUpperFloorsOfADesignBesideCityObjects) {
   for (std::size_t k = model; k < s.mesh.positions.size(); ++k) EXPECT_EQ(s.mesh.positions[k].z, 0);
 }
 
+TEST(Ground, OfALargeLevelCityIsARectangle) {
+  Scene s;
+  for (int k = 0; k < 10001; ++k) {
+    const double x = 20 * (k % 100), y = 20 * (k / 100);
+    add_box(s, std::to_string(k), rectangle(x, y, x + 10, y + 10, 3), 10);
+  }
+  const GroundReport report = ground_of(s, {-50, -50, 2100, 2100});
+  EXPECT_EQ(report.kind, "level");
+  EXPECT_EQ(report.triangles, 2u);
+  EXPECT_EQ(s.mesh.positions.back().z, 3);
+}
+
 TEST(Ground, KeepsObjectsOfTheSameNameInTwoFilesApart) {
   Scene s;
   add_box(s, "1", rectangle(0, 0, 10, 10, 0), 10);
