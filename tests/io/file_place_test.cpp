@@ -113,7 +113,22 @@ TEST(FilePlace, HeightsAboveGroundInAHoleStandOnTheGroundBesideThem) {
   options.above_ground = {"ndsm.asc"};
   const LoadedScene loaded = load({file("dem.asc", terrain()), file("ndsm.asc", blocks)}, options);
   EXPECT_NEAR(lowest(loaded.scene, 1), 103, 1e-6) << "not at the terrain's lowest point";
-  EXPECT_TRUE(warns(loaded.scene, "no ground below them", 1));
+  EXPECT_TRUE(warns(loaded.scene, "the height of the nearest was taken", 1));
+}
+
+TEST(FilePlace, HeightsAboveGroundInTheLastHalfCellOfATerrainStandOnItWithoutAWarning) {
+  const Files file;
+  const std::string dem =
+      "ncols 3\nnrows 3\nxllcorner 1200\nyllcorner 340700\ncellsize 25\n"
+      "400 400 400\n400 400 400\n400 400 400\n";
+  std::string ndsm = "ncols 75\nnrows 75\nxllcorner 1200\nyllcorner 340700\ncellsize 1\n";
+  for (int k = 0; k < 75 * 75; ++k) ndsm += k == 75 * 37 + 2 || k == 0 ? "9 " : "0 ";
+  LoadOptions options = without_ground();
+  options.crs = "EPSG:31256";
+  options.above_ground = {"ndsm.asc"};
+  const Scene scene = load({file("dem.asc", dem), file("ndsm.asc", ndsm)}, options).scene;
+  EXPECT_EQ(lowest(scene, 1), 400);
+  EXPECT_TRUE(scene.warnings.empty());
 }
 
 TEST(FilePlace, ADesignStandsOnTheFootOfAnotherNotOnItsBalcony) {
@@ -303,6 +318,29 @@ TEST(FilePlace, WhatStandsBeyondTheTerrainOrFarFromItIsCounted) {
   EXPECT_TRUE(warns(with("[1220,340710,52]"), "lie below the ground", 1));
 }
 
+TEST(FilePlace, ABuildingWithOneCornerInAHoleStandsOnTheTerrain) {
+  const Files file;
+  LoadOptions options = without_ground();
+  options.crs = "EPSG:31256";
+  // Its first corner is in the hole, between the centres around (1245, 340745).
+  const Scene scene =
+      load({file("dem.asc", terrain()), file("at.json", box("EPSG:31256", "[1250,340750,103]"))},
+           options)
+          .scene;
+  EXPECT_FALSE(warns(scene, "where the terrain has no surface", 1));
+}
+
+TEST(FilePlace, TreesAndLampsMayBeginInTheAir) {
+  const Files file;
+  std::string tree = box("EPSG:31256", "[1260,340702,70]");
+  tree.replace(tree.find("\"Building\""), 10, "\"SolitaryVegetationObject\"");
+  tree.replace(tree.find("\"Box\""), 5, "\"Tree\"");
+  LoadOptions options = without_ground();
+  options.crs = "EPSG:31256";
+  const Scene scene = load({file("dem.asc", terrain()), file("tree.json", tree)}, options).scene;
+  EXPECT_FALSE(warns(scene, "float above the ground", 1));
+}
+
 TEST(FilePlace, ADesignInTheAirOrInTheGroundIsAWarningButNotAStoreyOnTopOfAnother) {
   const Files file;
   const auto city = file("at.json", box());  // from (1200, 340700, 40), 10 x 10 x 20 m
@@ -332,6 +370,8 @@ TEST(FilePlace, SizesThatHintAtAnotherUnitAreNamedForEachFile) {
   };
   EXPECT_TRUE(warns(with("mm", cube()), "very small", 1));
   EXPECT_TRUE(warns(with("m", cube(0, 6000)), "very high", 1));
+  EXPECT_EQ(with("m", cube(0, 6000)).warnings[0].first,
+            "house.obj: 6000 m high; --unit house.obj=mm?");
   EXPECT_TRUE(with("m", cube()).warnings.empty());
 }
 

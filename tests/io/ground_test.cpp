@@ -437,6 +437,32 @@ TEST(Ground, OfALargeLevelCityIsARectangle) {
   EXPECT_EQ(s.mesh.positions.back().z, 3);
 }
 
+TEST(Ground, FollowsTheEdgesOfHousesInAGridOfWhichOneHasACellar) {
+  Scene s;  // GEOS cannot join the holes of such a grid as it stands
+  for (int k = 0; k < 100; ++k) {
+    const double x = 500 + 25 * (k % 10), y = 25 * (k / 10);
+    add_box(s, std::to_string(k), rectangle(x, y, x + 10, y + 10, 0), 9);
+  }
+  add_box(s, "cellar", rectangle(587.269, 40.005, 597.269, 50.005, -2), 10);
+  const Bounds2 extent{400, -100, 900, 400};
+  ground_of(s, extent);
+  EXPECT_TRUE(s.warnings.empty()) << s.warnings[0].first;
+  std::set<std::pair<std::array<double, 2>, std::array<double, 2>>> edges;
+  for (std::size_t t = 0; t < s.mesh.triangles.size(); ++t) {
+    if (!is_made_ground(s.surfaces[s.surface_of[t]])) continue;
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 &a = s.mesh.positions[s.mesh.triangles[t][k]],
+                 &b = s.mesh.positions[s.mesh.triangles[t][(k + 1) % 3]];
+      edges.insert({{a.x, a.y}, {b.x, b.y}});
+    }
+  }
+  for (int k = 0; k < 100; ++k) {
+    const double x = 500 + 25 * (k % 10), y = 25 * (k / 10);
+    if (k == 13) continue;                                 // the cellar reaches into it
+    EXPECT_TRUE(edges.count({{x + 10, y}, {x, y}})) << k;  // the ground lies outside
+  }
+}
+
 TEST(Ground, KeepsObjectsOfTheSameNameInTwoFilesApart) {
   Scene s;
   add_box(s, "1", rectangle(0, 0, 10, 10, 0), 10);

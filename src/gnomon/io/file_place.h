@@ -32,10 +32,16 @@ bool has_georeferenced(const std::vector<SceneFile>& files);
 // once for it.
 Result<std::string> scene_crs(const std::vector<SceneFile>& files, const LoadOptions& options);
 
-// Files of lower ranks are placed first: 0 those that know their coordinates, 1 local ones at a
-// site with a height, 2 heights above ground, 3 footprints, 4 local ones that stand on the ground
-// of the others. Those of 2 and above ask for it. `in_crs`: the scene has a CRS, or will have.
-enum { kKnown, kAtSite, kAboveGround, kFootprints, kOnGround, kRanks };
+// Files of lower ranks are placed first. Those from kAboveGround on ask for the ground of the
+// others. `in_crs`: the scene has a CRS, or will have.
+enum {
+  kKnown,        // they know their coordinates
+  kAtSite,       // local ones at a site with a height
+  kAboveGround,  // rasters of heights above the ground
+  kFootprints,
+  kOnGround,  // local ones at a site whose height is not known
+  kRanks
+};
 int rank_of(const SceneFile& file, bool others_georeferenced, bool in_crs);
 
 // What the user says of the file and what it says itself must not contradict. `in_crs` as above.

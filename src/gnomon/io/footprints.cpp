@@ -57,7 +57,7 @@ T turn_value(const Vec3& a, const Vec3& b, const Vec3& c) {
   return (T(b.x) - ax) * (T(c.y) - ay) - (T(b.y) - ay) * (T(c.x) - ax);
 }
 
-// The triangles of one object without a GroundSurface, and what they say about the ground.
+// One without a GroundSurface.
 struct Object {
   std::vector<std::array<Vec3, 3>> triangles;
 };

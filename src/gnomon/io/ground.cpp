@@ -234,6 +234,31 @@ void add_frame(Surface3& out, const std::array<std::vector<Vec2>, 4>& sides, con
   }
 }
 
+// Many questions to one geometry. Each of its polygons is prepared alone: GEOS 3.11 answers slowly
+// for a prepared collection. The geometry must live as long.
+class Prepared {
+ public:
+  Prepared(const Geos& geos, const GEOSGeometry* geometry) : geos_(geos) {
+    for_each_polygon(geos, geometry, [&](const GEOSGeometry* polygon) {
+      polygons_.push_back(GEOSPrepare_r(geos.handle, polygon));
+    });
+  }
+  ~Prepared() {
+    for (const GEOSPreparedGeometry* p : polygons_) GEOSPreparedGeom_destroy_r(geos_.handle, p);
+  }
+  Prepared(const Prepared&) = delete;
+  Prepared& operator=(const Prepared&) = delete;
+  bool intersects(const GEOSGeometry* other) const {
+    return std::any_of(polygons_.begin(), polygons_.end(), [&](const GEOSPreparedGeometry* p) {
+      return GEOSPreparedIntersects_r(geos_.handle, p, other) == 1;
+    });
+  }
+
+ private:
+  const Geos& geos_;
+  std::vector<const GEOSPreparedGeometry*> polygons_;
+};
+
 // Splits `region` along the lower edges of open objects, so that they become edges of the ground.
 // Null if that fails.
 Geom split_by(const Geos& geos, const GEOSGeometry* region, const std::vector<Edge>& edges) {
@@ -248,14 +273,11 @@ Geom split_by(const Geos& geos, const GEOSGeometry* region, const std::vector<Ed
   const GEOSGeometry* input = noded.get();
   const Geom faces = own(geos, GEOSPolygonize_r(geos.handle, &input, 1));
   if (!faces) return own(geos, nullptr);
-  const std::unique_ptr<const GEOSPreparedGeometry,
-                        std::function<void(const GEOSPreparedGeometry*)>>
-      prepared(GEOSPrepare_r(geos.handle, region),
-               [&](const GEOSPreparedGeometry* p) { GEOSPreparedGeom_destroy_r(geos.handle, p); });
+  const Prepared prepared(geos, region);
   std::vector<Geom> kept;
   for_each_polygon(geos, faces.get(), [&](const GEOSGeometry* face) {
     const Geom inside = own(geos, GEOSPointOnSurface_r(geos.handle, face));
-    if (inside && GEOSPreparedIntersects_r(geos.handle, prepared.get(), inside.get()) == 1) {
+    if (inside && prepared.intersects(inside.get())) {
       kept.push_back(own(geos, GEOSGeom_clone_r(geos.handle, face)));
     }
   });
@@ -270,14 +292,72 @@ Geom split_by(const Geos& geos, const GEOSGeometry* region, const std::vector<Ed
 Geom unconstrained(const Geos& geos, const GEOSGeometry* region) {
   const Geom all = own(geos, GEOSDelaunayTriangulation_r(geos.handle, region, 0.0, 0));
   if (!all) return own(geos, nullptr);
+  const Prepared inside(geos, region);
   std::vector<Geom> kept;
   for_each_polygon(geos, all.get(), [&](const GEOSGeometry* t) {
     const Geom middle = own(geos, GEOSGetCentroid_r(geos.handle, t));
-    if (middle && GEOSIntersects_r(geos.handle, region, middle.get()) == 1) {
+    if (middle && inside.intersects(middle.get())) {
       kept.push_back(own(geos, GEOSGeom_clone_r(geos.handle, t)));
     }
   });
   return collection(geos, GEOS_GEOMETRYCOLLECTION, std::move(kept));
+}
+
+// The constrained triangulation of a polygon that is turned by an angle, on its own vertices, which
+// are found again by their turned coordinates. Null if GEOS fails, or two vertices become one.
+Geom triangulated_at(const Geos& geos, const GEOSGeometry* polygon, double angle) {
+  struct Turn {
+    double c, s;
+    PointIds turned;
+    std::vector<Vec2> own;  // by the number of the turned point
+    bool is_clear = true;
+  } turn{std::cos(angle), std::sin(angle), {}, {}, true};
+  const auto there = [](double* x, double* y, void* data) {
+    Turn& t = *static_cast<Turn*>(data);
+    const Vec2 p(*x, *y);
+    *x = t.c * p.x - t.s * p.y;
+    *y = t.s * p.x + t.c * p.y;
+    const std::uint32_t k = t.turned({*x, *y});
+    if (k == t.own.size()) t.own.push_back(p);
+    t.is_clear = t.is_clear && t.own[k] == p;
+    return 1;
+  };
+  const auto back = [](double* x, double* y, void* data) {
+    Turn& t = *static_cast<Turn*>(data);
+    const std::uint32_t k = t.turned({*x, *y});
+    if (k >= t.own.size()) return t.is_clear = false, 0;
+    *x = t.own[k].x;
+    *y = t.own[k].y;
+    return 1;
+  };
+  const Geom turned = own(geos, GEOSGeom_transformXY_r(geos.handle, polygon, there, &turn));
+  if (!turned || !turn.is_clear) return own(geos, nullptr);
+  const Geom mesh = own(geos, GEOSConstrainedDelaunayTriangulation_r(geos.handle, turned.get()));
+  if (!mesh) return own(geos, nullptr);
+  Geom result = own(geos, GEOSGeom_transformXY_r(geos.handle, mesh.get(), back, &turn));
+  if (!turn.is_clear) result.reset();
+  return result;
+}
+
+// Triangulates each polygon along its edges. GEOS 3.11 joins the holes of a polygon from left to
+// right, and fails for some whose holes stand in columns, as houses in a grid do; turned by another
+// angle they do not. `failed`: how many were triangulated without their edges.
+Geom triangulated(const Geos& geos, const GEOSGeometry* region, std::size_t& failed) {
+  if (Geom all = own(geos, GEOSConstrainedDelaunayTriangulation_r(geos.handle, region))) return all;
+  std::vector<Geom> meshes;
+  for_each_polygon(geos, region, [&](const GEOSGeometry* polygon) {
+    Geom mesh = own(geos, nullptr);
+    for (const double angle : {0.0, 0.3, 0.7, 1.1, 1.9, 2.3}) {  // radians; any will do
+      mesh = triangulated_at(geos, polygon, angle);
+      if (mesh) break;
+    }
+    if (!mesh) ++failed, mesh = unconstrained(geos, polygon);
+    meshes.push_back(std::move(mesh));
+  });
+  if (std::any_of(meshes.begin(), meshes.end(), [](const Geom& m) { return !m; })) {
+    return own(geos, nullptr);
+  }
+  return collection(geos, GEOS_GEOMETRYCOLLECTION, std::move(meshes));
 }
 
 // The ground inside `ring` and outside `closed`, cut along the rings of kAround: the band next to
@@ -434,15 +514,15 @@ Result<Surface3> through(const Footprints& feet, const Bounds2& model, const Bou
     }
   }
   const Geom region = collection(geos, GEOS_GEOMETRYCOLLECTION, std::move(bands));
-  Geom mesh = own(geos, GEOSConstrainedDelaunayTriangulation_r(geos.handle, region.get()));
-  if (!mesh) {
+  std::size_t without_edges = 0;
+  const Geom mesh = triangulated(geos, region.get(), without_edges);
+  if (!mesh) return failed("the triangulation");
+  if (without_edges > 0) {
     warn(warnings,
          "The ground between the footprints could not be triangulated along their edges; it was "
          "without them, and may "
          "cut into buildings.",
-         geos.message);
-    mesh = unconstrained(geos, region.get());
-    if (!mesh) return failed("the triangulation");
+         geos.message, without_edges);
   }
 
   // Heights: an edge of the region has those of the lowest footprint edge there, and a vertex the

@@ -319,11 +319,7 @@ std::optional<Error> build(Builder& b, std::vector<SceneFile>& files, const Load
   for (int now = 0; now < kRanks; ++now) {
     if (std::find(ranks.begin(), ranks.end(), now) == ranks.end()) continue;
     const GroundAt ground =
-        now < kAboveGround || !b.box
-            ? GroundAt()
-            : ground_of(b.loaded.scene,
-                        now == kAboveGround ? GroundSearch::below : GroundSearch::nearest,
-                        b.beside_terrain);
+        now < kAboveGround || !b.box ? GroundAt() : ground_of(b.loaded.scene, b.beside_terrain);
     for (std::size_t k = 0; k < files.size(); ++k) {
       SceneFile& f = files[k];
       if (ranks[k] != now) continue;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <gnomon/io/box_finder.h>
 #include <gnomon/io/crs.h>
 #include <gnomon/io/file_place.h>
 #include <gnomon/io/footprints.h>
@@ -14,6 +15,7 @@
 #include <gnomon/io/place_model.h>
 #include <gnomon/io/read_text.h>
 #include <gnomon/scene/objects.h>
+#include <glm/common.hpp>
 
 namespace gnomon {
 namespace {
@@ -31,15 +33,25 @@ constexpr double kWrongHeight = 5;
 
 std::string file_name(const SceneFile& f) { return f.path.filename().string(); }
 
-// What stands on the ground as one: a city object with its parts, or another file as a whole.
+// Heights in models are whole millimetres: vertices within one of the lowest are as low.
+constexpr double kLevelBottom = 1e-3;
+
+// What stands on the ground as one: a building with its parts, or a file that names no city
+// objects.
 struct Thing {
-  Vec3 lowest{0, 0, std::numeric_limits<double>::infinity()};  // vertex
-  Vec3 low{std::numeric_limits<double>::infinity()};           // box
+  Vec3 low{std::numeric_limits<double>::infinity()};  // box
   Vec3 high{-std::numeric_limits<double>::infinity()};
+  std::vector<Vec3> feet;  // its lowest vertices
   std::string name;
   std::uint32_t file = 0;
   bool city = false;
 };
+
+// Trees, lamps and bridges may begin in the air.
+bool is_judged(const Surface& s) {
+  if (is_terrain(s)) return false;
+  return !s.city || (s.group.starts_with("Building") && stands_on_ground(s));
+}
 
 std::vector<Thing> things_of(const Scene& scene, const std::vector<SceneFile>& files) {
   const Objects whole = whole_objects(scene);
@@ -47,7 +59,7 @@ std::vector<Thing> things_of(const Scene& scene, const std::vector<SceneFile>& f
   std::vector<std::size_t> thing_of(scene.surfaces.size(), things.size());
   for (std::size_t s = 0; s < scene.surfaces.size(); ++s) {
     const Surface& surface = scene.surfaces[s];
-    if (is_terrain(surface) || (surface.city && !stands_on_ground(surface))) continue;
+    if (!is_judged(surface)) continue;
     thing_of[s] = surface.city ? whole.of_surface[s] : whole.names.size() + surface.file;
     Thing& thing = things[thing_of[s]];
     thing.file = surface.file;
@@ -55,20 +67,23 @@ std::vector<Thing> things_of(const Scene& scene, const std::vector<SceneFile>& f
     thing.name = file_name(files[surface.file]);
     if (surface.city) thing.name += ": object " + in_quotes(whole.names[whole.of_surface[s]], 200);
   }
-  for (std::size_t t = 0; t < scene.mesh.triangles.size(); ++t) {
-    const std::size_t number = thing_of[scene.surface_of[t]];
-    if (number == things.size()) continue;
-    Thing& thing = things[number];
-    for (const std::uint32_t v : scene.mesh.triangles[t]) {
-      const Vec3& p = scene.mesh.positions[v];
-      if (p.z < thing.lowest.z) thing.lowest = p;
-      for (int k = 0; k < 3; ++k) {
-        thing.low[k] = std::min(thing.low[k], p[k]);
-        thing.high[k] = std::max(thing.high[k], p[k]);
+  const auto each_vertex = [&](const auto& visit) {
+    for (std::size_t t = 0; t < scene.mesh.triangles.size(); ++t) {
+      const std::size_t number = thing_of[scene.surface_of[t]];
+      if (number == things.size()) continue;
+      for (const std::uint32_t v : scene.mesh.triangles[t]) {
+        visit(things[number], scene.mesh.positions[v]);
       }
     }
-  }
-  std::erase_if(things, [](const Thing& t) { return std::isinf(t.lowest.z); });
+  };
+  each_vertex([](Thing& thing, const Vec3& p) {
+    thing.low = glm::min(thing.low, p);
+    thing.high = glm::max(thing.high, p);
+  });
+  each_vertex([](Thing& thing, const Vec3& p) {
+    if (p.z <= thing.low.z + kLevelBottom) thing.feet.push_back(p);
+  });
+  std::erase_if(things, [](const Thing& t) { return t.feet.empty(); });
   return things;
 }
 
@@ -83,29 +98,53 @@ GroundAt terrain_of(const Scene& scene) {
   return corners.empty() ? GroundAt() : ground_at(std::move(corners));
 }
 
-double distance(const Thing& thing, const Vec3& p) {
-  return std::hypot(std::max({thing.low.x - p.x, 0.0, p.x - thing.high.x}),
-                    std::max({thing.low.y - p.y, 0.0, p.y - thing.high.y}));
-}
-
-// The thing of another file whose box is nearest to the lowest point of `one`.
-const Thing* neighbour_of(const Thing& one, const std::vector<Thing>& things) {
-  const Thing* nearest = nullptr;
-  double least = std::numeric_limits<double>::infinity();
-  for (const Thing& other : things) {
-    if (other.file == one.file) continue;
-    const double d = distance(other, one.lowest);
-    if (d < least) least = d, nearest = &other;
+// Below the first of its feet that has terrain below: terrain often ends between neighbours' walls.
+std::optional<double> terrain_below(const Thing& one, const GroundAt& terrain) {
+  for (const Vec3& p : one.feet) {
+    if (const auto z = terrain(p.x, p.y)) return z;
   }
-  return nearest;
+  return std::nullopt;
 }
 
-// A storey on top of an existing building stands on no ground.
-bool stands_on(const Thing& one, const std::vector<Thing>& things) {
-  return std::any_of(things.begin(), things.end(), [&](const Thing& other) {
-    return other.file != one.file && distance(other, one.lowest) == 0 &&
-           other.high.z + kWrongHeight >= one.lowest.z;
-  });
+class Neighbours {
+ public:
+  explicit Neighbours(const std::vector<Thing>& things) : things_(things), finder_(boxes(things)) {}
+
+  // The thing of another file whose box is nearest to a foot of `one`.
+  const Thing* nearest(const Thing& one) const {
+    const auto k = finder_.nearest(one.feet[0].x, one.feet[0].y, [&](std::size_t other) {
+      return things_[other].file != one.file;
+    });
+    return k ? &things_[*k] : nullptr;
+  }
+
+  // A storey on top of an existing building stands on no ground.
+  bool carry(const Thing& one) const {
+    const Vec3& p = one.feet[0];
+    const auto k = finder_.nearest(p.x, p.y, [&](std::size_t other) {
+      return things_[other].file != one.file && things_[other].high.z + kWrongHeight >= p.z;
+    });
+    return k && things_[*k].low.x <= p.x && p.x <= things_[*k].high.x && things_[*k].low.y <= p.y &&
+           p.y <= things_[*k].high.y;
+  }
+
+ private:
+  static std::vector<Bounds2> boxes(const std::vector<Thing>& things) {
+    std::vector<Bounds2> all;
+    for (const Thing& t : things) all.push_back({t.low.x, t.low.y, t.high.x, t.high.y});
+    return all;
+  }
+  const std::vector<Thing>& things_;
+  BoxFinder finder_;
+};
+
+// What to do about a file of a strange size.
+std::string advice(const SceneFile& f, const Vec3& size) {
+  const AxesKnown known = axes_known(f);
+  if (!known.up && size.z > kFlat * std::min(size.x, size.y)) {
+    return fmt::format("--up {}={}?", file_name(f), known.usual_up == 'y' ? 'z' : 'y');
+  }
+  return known.unit ? "export it in metres" : fmt::format("--unit {}=mm?", file_name(f));
 }
 
 }  // namespace
@@ -121,11 +160,12 @@ std::optional<Error> check_sizes(const std::vector<SceneFile>& files, Warnings& 
     if (is_georeferenced(f.format)) continue;
     const std::string name = file_name(f);
     if (all < kSmallModel) {
-      warn(warnings, "Models are very small; if they are not, say their unit with --unit.",
-           fmt::format("{}: {:.3g} m large", name, all));
+      warn(warnings, "Models are very small; if they are not, their unit is another one.",
+           fmt::format("{}: {:.3g} m large; {}", name, all,
+                       axes_known(f).unit ? "export it in metres" : "say it with --unit"));
     } else if (size.z > kHighestBuilding && size.z * kFlat > width) {
-      warn(warnings, "Models are very high; if they are not, say their unit with --unit.",
-           fmt::format("{}: {:.0f} m high; --unit {}=mm?", name, size.z, name));
+      warn(warnings, "Models are very high; if they are not, their unit or up axis is another one.",
+           fmt::format("{}: {:.0f} m high; {}", name, size.z, advice(f, size)));
     }
   }
   if (largest >= kSmallestModel) return std::nullopt;
@@ -207,27 +247,28 @@ void warn_of_heights(Scene& scene, const std::vector<SceneFile>& files) {
   const std::vector<Thing> things = things_of(scene, files);
   if (things.empty()) return;
   const GroundAt terrain = terrain_of(scene);
+  const Neighbours neighbours(things);
   for (const Thing& one : things) {
     std::optional<double> ground;
     if (terrain) {
-      ground = terrain(one.lowest.x, one.lowest.y);
+      ground = terrain_below(one, terrain);
       if (!ground) {
         warn(scene.warnings,
-             "Objects stand where the terrain has no surface: beyond its border, or in a hole; "
+             "Buildings stand where the terrain has no surface: beyond its border, or in a hole; "
              "what is around them receives no shadows.",
              one.name);
         continue;
       }
-    } else if (const Thing* other = one.city ? nullptr : neighbour_of(one, things)) {
-      ground = other->lowest.z;
+    } else if (const Thing* other = one.city ? nullptr : neighbours.nearest(one)) {
+      ground = other->low.z;
     }
     if (!ground) continue;
-    const double above = one.lowest.z - *ground;
-    if (above > kWrongHeight && !stands_on(one, things)) {
-      warn(scene.warnings, "Objects float above the ground: check their heights.",
+    const double above = one.low.z - *ground;
+    if (above > kWrongHeight && !neighbours.carry(one)) {
+      warn(scene.warnings, "Buildings float above the ground: check their heights.",
            fmt::format("{}: {:.1f} m above the ground there", one.name, above));
     } else if (one.high.z < *ground) {
-      warn(scene.warnings, "Objects lie below the ground: check their heights.",
+      warn(scene.warnings, "Buildings lie below the ground: check their heights.",
            fmt::format("{}: its top is {:.1f} m below the ground there", one.name,
                        *ground - one.high.z));
     } else if (!one.city && above < -kWrongHeight) {

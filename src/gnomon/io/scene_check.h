@@ -32,9 +32,9 @@ void warn_of_unused_options(const std::vector<SceneFile>& files, const LoadOptio
 // for absolute ones, which looks right at the sea.
 void warn_of_overlapping_surfaces(const std::vector<SceneFile>& files, Warnings& warnings);
 
-// Warns of city objects, and of other files as a whole, that stand beyond the scene's terrain, in
-// the air or below the ground; where there is no terrain, of files that are far above or below the
-// objects beside them. The scene is welded or not, but without made ground.
+// Warns of buildings, and of files without city objects as a whole, that stand beyond the scene's
+// terrain, in the air or below the ground; where there is no terrain, of files that are far above
+// or below the objects beside them. The scene is welded or not, but without made ground.
 void warn_of_heights(Scene& scene, const std::vector<SceneFile>& files);
 
 }  // namespace gnomon

@@ -139,6 +139,20 @@ Result<std::vector<SceneFile>> scene_files(const std::vector<std::filesystem::pa
   return files;
 }
 
+AxesKnown axes_known(const SceneFile& file) {
+  AxesKnown known;
+  if (is_georeferenced(file.format)) return {true, true, 'z'};
+  if (file.format == FileFormat::obj) {
+    known.usual_up = 'y';
+  } else if (const MeshFormat* format = mesh_format(file.path)) {
+    known.up = format->up == UpAxis::kStated || format->reader == MeshReader::kGltf;
+    known.unit = format->unit_stated || format->reader == MeshReader::kGltf;
+    known.usual_up = format->up == UpAxis::kY ? 'y' : 'z';
+  }
+  known.up = known.up || file.told.up != 0;
+  return known;
+}
+
 Result<std::string> crs_named_by(const SceneFile& file, const LoadOptions& options) {
   return file.format == FileFormat::raster
              ? crs_of_raster_file(file.path)

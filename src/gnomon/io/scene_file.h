@@ -32,6 +32,13 @@ struct SceneFile {
 Result<std::vector<SceneFile>> scene_files(const std::vector<std::filesystem::path>& paths,
                                            const LoadOptions& options);
 
+// What the file or its format says of its axes itself.
+struct AxesKnown {
+  bool up = false, unit = false;
+  char usual_up = 'z';  // where it says nothing
+};
+AxesKnown axes_known(const SceneFile& file);
+
 // The CRS that a raster or footprints name themselves, without reading more than the header; empty:
 // none. Precondition: the format is one of these.
 Result<std::string> crs_named_by(const SceneFile& file, const LoadOptions& options);

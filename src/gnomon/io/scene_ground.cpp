@@ -1,3 +1,4 @@
+#include <gnomon/io/box_finder.h>
 #include <gnomon/io/footprints.h>
 #include <gnomon/io/ground_at.h>
 #include <gnomon/io/scene_ground.h>
@@ -45,21 +46,14 @@ std::vector<Foot> feet_of(const Scene& scene) {
   return feet;
 }
 
-std::optional<double> nearest_foot(const std::vector<Foot>& feet, double x, double y) {
-  double least = std::numeric_limits<double>::infinity();
-  std::optional<double> z;
-  for (const Foot& f : feet) {
-    const double dx = std::max({f.box.x0 - x, 0.0, x - f.box.x1});
-    const double dy = std::max({f.box.y0 - y, 0.0, y - f.box.y1});
-    const double d = dx * dx + dy * dy;
-    if (d < least) least = d, z = f.z;
-  }
-  return z;
-}
+// Where the terrain ends, and around its holes.
+struct Border {
+  std::vector<Vec3> vertices;  // ascending by x
+  double half_cell = 0;        // across: half of the median edge's length, times the root of 2
+};
 
-// The vertices of edges that belong to one triangle only: where the terrain ends, and around its
-// holes. Ascending by x.
-std::vector<Vec3> border_of(const Scene& scene, const std::vector<std::uint32_t>& terrain) {
+// Of the edges that belong to one triangle only.
+Border border_of(const Scene& scene, const std::vector<std::uint32_t>& terrain) {
   using Edge = std::pair<std::uint32_t, std::uint32_t>;
   std::vector<Edge> edges;
   edges.reserve(3 * terrain.size());
@@ -68,40 +62,50 @@ std::vector<Vec3> border_of(const Scene& scene, const std::vector<std::uint32_t>
     for (int k = 0; k < 3; ++k) edges.push_back(std::minmax(v[k], v[(k + 1) % 3]));
   }
   std::sort(edges.begin(), edges.end());
-  std::vector<Vec3> border;
+  Border border;
+  std::vector<double> lengths;
   for (std::size_t k = 0; k < edges.size(); ++k) {
     if (k > 0 && edges[k - 1] == edges[k]) continue;
     if (k + 1 < edges.size() && edges[k + 1] == edges[k]) continue;
-    border.push_back(scene.mesh.positions[edges[k].first]);
-    border.push_back(scene.mesh.positions[edges[k].second]);
+    const Vec3 &a = scene.mesh.positions[edges[k].first],
+               &b = scene.mesh.positions[edges[k].second];
+    border.vertices.push_back(a);
+    border.vertices.push_back(b);
+    lengths.push_back(std::hypot(a.x - b.x, a.y - b.y));
   }
-  const auto before = [](const Vec3& a, const Vec3& b) {
+  if (lengths.empty()) return border;
+  const auto median = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  std::nth_element(lengths.begin(), median, lengths.end());
+  border.half_cell = *median * std::sqrt(0.5);
+  std::sort(border.vertices.begin(), border.vertices.end(), [](const Vec3& a, const Vec3& b) {
     return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
-  };
-  std::sort(border.begin(), border.end(), before);
-  border.erase(std::unique(border.begin(), border.end()), border.end());
+  });
+  border.vertices.erase(std::unique(border.vertices.begin(), border.vertices.end()),
+                        border.vertices.end());
   return border;
 }
 
-// Outwards from x until no vertex can be nearer; of equally near ones the lower.
-double nearest_height(const std::vector<Vec3>& border, double x, double y) {
+// Outwards from x until no vertex can be nearer; of equally near ones the lower. Precondition:
+// there is one.
+Vec3 nearest_vertex(const std::vector<Vec3>& border, double x, double y) {
   const auto middle = std::lower_bound(border.begin(), border.end(), x,
                                        [](const Vec3& p, double at) { return p.x < at; });
-  double least = std::numeric_limits<double>::infinity(), z = 0;
+  double least = std::numeric_limits<double>::infinity();
+  Vec3 nearest = border[0];
   const auto look = [&](const Vec3& p) {
     const double dx = p.x - x, dy = p.y - y, d = dx * dx + dy * dy;
-    if (d < least || (d == least && p.z < z)) least = d, z = p.z;
+    if (d < least || (d == least && p.z < nearest.z)) least = d, nearest = p;
     return dx * dx <= least;
   };
   for (auto at = middle; at != border.end() && look(*at);) ++at;
   for (auto at = middle; at != border.begin() && look(*--at);) {
   }
-  return z;
+  return nearest;
 }
 
 }  // namespace
 
-GroundAt ground_of(const Scene& scene, GroundSearch search, std::size_t& beside_terrain) {
+GroundAt ground_of(const Scene& scene, std::size_t& beside_terrain) {
   std::vector<std::uint32_t> terrain;
   std::vector<std::array<Vec3, 3>> corners;
   for (std::uint32_t t = 0; t < scene.mesh.triangles.size(); ++t) {
@@ -113,20 +117,25 @@ GroundAt ground_of(const Scene& scene, GroundSearch search, std::size_t& beside_
   }
   const Vec3 origin = scene.frame.origin;
   if (terrain.empty()) {
-    return [feet = feet_of(scene), origin](double x, double y) {
-      auto z = nearest_foot(feet, x - origin.x, y - origin.y);
-      if (z) *z += origin.z;
-      return z;
+    const auto feet = std::make_shared<const std::vector<Foot>>(feet_of(scene));
+    std::vector<Bounds2> boxes;
+    for (const Foot& f : *feet) boxes.push_back(f.box);
+    const auto finder = std::make_shared<const BoxFinder>(std::move(boxes));
+    return [feet, finder, origin](double x, double y) -> std::optional<double> {
+      const auto nearest = finder->nearest(x - origin.x, y - origin.y);
+      if (!nearest) return std::nullopt;
+      return (*feet)[*nearest].z + origin.z;
     };
   }
-  const auto border = std::make_shared<std::vector<Vec3>>();
-  if (search == GroundSearch::nearest) *border = border_of(scene, terrain);
+  const auto border = std::make_shared<const Border>(border_of(scene, terrain));
   return [below = ground_at(std::move(corners)), border, origin, &beside_terrain](
              double x, double y) -> std::optional<double> {
-    auto z = below(x - origin.x, y - origin.y);
-    if (!z && !border->empty()) {
-      z = nearest_height(*border, x - origin.x, y - origin.y);
-      ++beside_terrain;
+    const Vec2 p(x - origin.x, y - origin.y);
+    auto z = below(p.x, p.y);
+    if (!z && !border->vertices.empty()) {
+      const Vec3 nearest = nearest_vertex(border->vertices, p.x, p.y);
+      if (std::hypot(nearest.x - p.x, nearest.y - p.y) > border->half_cell) ++beside_terrain;
+      z = nearest.z;
     }
     if (z) *z += origin.z;
     return z;
