@@ -443,7 +443,10 @@ TEST(Ground, FollowsTheEdgesOfHousesInAGridOfWhichOneHasACellar) {
     const double x = 500 + 25 * (k % 10), y = 25 * (k / 10);
     add_box(s, std::to_string(k), rectangle(x, y, x + 10, y + 10, 0), 9);
   }
-  add_box(s, "cellar", rectangle(587.269, 40.005, 597.269, 50.005, -2), 10);
+  add_box(s, "cellar",
+          {Vec3(587.269, 78.005, -2), Vec3(597.269, 78.0045, -2), Vec3(597.2695, 88.0045, -2),
+           Vec3(587.2695, 88.005, -2)},
+          10);
   const Bounds2 extent{400, -100, 900, 400};
   ground_of(s, extent);
   EXPECT_TRUE(s.warnings.empty()) << s.warnings[0].first;
