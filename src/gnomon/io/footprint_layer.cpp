@@ -323,6 +323,7 @@ class Reader {
               *b.feature);
     }
     const std::string object = object_of(static_cast<std::size_t>(&b - buildings_.data()));
+    const std::size_t whole = b.outline != kNoOutline ? object_of(b.outline).size() : 0;
     const bool raised = b.heights.from > 0;
     // Names that ground.h understands: what is raised and does not belong to a building on the
     // ground says nothing about the ground.
@@ -332,7 +333,7 @@ class Reader {
         : b.kind == Kind::kPart && b.outline != kNoOutline    ? "BuildingPart"
                                                               : "Building";
     const auto surface = [&](std::string_view semantic) {
-      return builder_.surface(object, group, "", semantic);
+      return builder_.surface(object, group, "", semantic, whole);
     };
     const std::uint32_t roof = surface("RoofSurface"), wall = surface("WallSurface");
     const std::uint32_t floor = surface(raised ? "OuterCeilingSurface" : "GroundSurface");
