@@ -93,6 +93,11 @@ void run(const Options& o) {
         "y up, metres from the origin {}, {}, {} ({}); rounded to single precision by at most "
         "{:.3g} m\n",
         f.origin.x, f.origin.y, f.origin.z, f.crs.empty() ? "no CRS" : f.crs, rounding);
+    fmt::print("read it with: --ground none{}\n",
+               f.place ? fmt::format(" --site={:.9f},{:.9f},{:.3f} --north={:.6f}",
+                                     f.place->latitude / kDegree, f.place->longitude / kDegree,
+                                     f.place->height, f.true_north / kDegree)
+                       : std::string());
   }
   for (const FileWritten& file : files)
     fmt::print("  {}  {:.1f} kB\n", file.path.string(), static_cast<double>(file.bytes) / 1000);

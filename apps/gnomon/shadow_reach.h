@@ -28,7 +28,7 @@ bool shadow_at_border(const Scene& scene, const Receivers& receivers,
 
 // What then is said, a fact and no fault.
 inline constexpr const char* kShadowAtBorder =
-    "Shadows reach the border of the map: areas and shares are those inside it; --bounds shows "
-    "more.";
+    "Shadows reach the border of the map: areas and shares are those inside it; larger "
+    "--bounds show more.";
 
 }  // namespace gnomon::app

@@ -44,6 +44,7 @@ TEST_F(ConvertCommand, GlbAndGltfSayOriginAndRounding) {
     EXPECT_GT(fs::file_size(file(name)), 1000000u);
     EXPECT_NE(out_.find("origin 1249, 340770, 57"), std::string::npos) << out_;
     EXPECT_NE(out_.find("single precision"), std::string::npos) << out_;
+    EXPECT_NE(out_.find("read it with: --ground none --site=48.2"), std::string::npos) << out_;
     EXPECT_EQ(err_.find("millimetre"), std::string::npos) << err_;
   }
 }

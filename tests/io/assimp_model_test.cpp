@@ -61,6 +61,7 @@ TEST_F(Assimp, OneMeshUnderManyNodesStandsInAllPlaces) {
   std::set<std::string> names;
   for (const Surface& s : m.surfaces) names.insert(s.object);
   EXPECT_EQ(names, (std::set<std::string>{"Town/Row/A", "Town/Row/B"}));
+  EXPECT_EQ(m.surfaces[0].whole, 4u);  // Town
   EXPECT_NEAR(corners_of(m, 0)[0].z, 10, 1e-6);
   EXPECT_NEAR(std::fabs(corners_of(m, 1)[0].x - corners_of(m, 0)[0].x), 5, 1e-6);
 }
@@ -97,6 +98,30 @@ TEST_F(Assimp, DigitsBeyondSinglePrecisionAreWarnedOf) {
       "t.dae", collada("Z_UP", "26845.724 0 0 100 0 0 100 200 300 0 200 300", kIndices, kHouse));
   EXPECT_EQ(warned(little, "more digits"), 0u);
   EXPECT_GT(lost_digits("26845.724").largest, 0.0);
+}
+
+// A chunk of 3DS: its number, its length with these 6 bytes, what is in it.
+std::string chunk(std::uint16_t number, const std::string& content) {
+  const auto length = static_cast<std::uint32_t>(content.size() + 6);
+  return bytes_of<std::uint16_t>({number}) + bytes_of<std::uint32_t>({length}) + content;
+}
+
+TEST_F(Assimp, ThreeDsStandsUprightWithKeyFramesAndWithout) {
+  const std::string name("House", 6);  // with its zero
+  const std::string mesh =
+      chunk(0x4110, bytes_of<std::uint16_t>({3}) + bytes_of<float>({0, 0, 0, 10, 8, 0, 0, 8, 6})) +
+      chunk(0x4120, bytes_of<std::uint16_t>({1, 0, 1, 2, 7}));
+  const std::string scene = chunk(0x3D3D, chunk(0x4000, name + chunk(0x4100, mesh)));
+  const std::string frames =
+      chunk(0xB000, chunk(0xB002, chunk(0xB010, name + bytes_of<std::uint16_t>({0, 0, 0xFFFF}))));
+  for (const std::string& keys : {std::string(), frames}) {
+    const Model m = read("t.3ds", chunk(0x4D4D, scene + keys));
+    ASSERT_EQ(m.polygons.size(), 1u) << keys.size();
+    const std::vector<Vec3> at = corners_of(m, 0);
+    EXPECT_TRUE(std::count(at.begin(), at.end(), Vec3(10, 8, 0)) == 1 &&
+                std::count(at.begin(), at.end(), Vec3(0, 8, 6)) == 1)
+        << keys.size() << ": " << at[1].x << ' ' << at[1].y << ' ' << at[1].z;
+  }
 }
 
 TEST(TriedApart, CrashesHangsAndHungerAreAnswersNotEnds) {

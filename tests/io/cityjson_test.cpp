@@ -4,6 +4,7 @@
 #endif
 
 #include <gnomon/io/cityjson.h>
+#include <gnomon/scene/objects.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -199,6 +200,17 @@ TEST(CityJson, PartsAreNamedAfterTheirParents) {
                                 g + "}"));
   EXPECT_EQ(objects(m), (std::vector<std::string>{"B/P/I", "B/P"}));
   EXPECT_EQ(m.surfaces[m.polygons[0].surface].group, "BuildingInstallation");
+}
+
+TEST(CityJson, PartsBelongToTheirWholeWhateverItsId) {
+  const std::string g = R"("geometry":[)" + geometry("MultiSurface", "[[[0,1,2]]]") + "]";
+  const Model m = read(document(R"("https://x/b/1":{"type":"Building"},"https://x/b/1-p":)"
+                                R"({"type":"BuildingPart","parents":["https://x/b/1"],)" +
+                                g + R"(},"https://x/b/2":{"type":"Building",)" + g + "}"));
+  Scene scene;
+  scene.surfaces = m.surfaces;
+  EXPECT_EQ(whole_objects(scene).names,
+            (std::vector<std::string>{"https://x/b/1", "https://x/b/2"}));
 }
 
 TEST(CityJson, ParentsInACircleEnd) {

@@ -259,6 +259,9 @@ TEST_F(FootprintLayer, DamagedFilesAreRefusedByNameAndNothingIsPrinted) {
   write("second.geojson", collection({house(R"("height":3)"),
                                       feature(R"("height":3)", polygon(R"([["east",0],[1,1]])"))}));
   expect("second.geojson", "feature 2 cannot be read");
+  write("lines.geojsonl",
+        house(R"("height":3)") + "\n" + feature(R"("height":3)", polygon(R"([["east",0],[1,1]])")));
+  expect("lines.geojsonl", "line 2 cannot be read");
   write("noise.gpkg", "this is no database");
   expect("noise.gpkg", "check that the file is whole");
   write("empty.geojson", R"({"type":"FeatureCollection","features":[]})");
@@ -301,7 +304,16 @@ TEST(GeoJsonFault, TheFirstFeatureWhoseCoordinatesAreNoneIsNamed) {
   EXPECT_EQ(found(R"({"geometries":[{"coordinates":[1,{}]}]})"), "feature 2 (id way/7)");
   EXPECT_EQ(found(R"({"coordinates":[[[[1,2]]]]})"), "");
   EXPECT_EQ(found("null"), "");
-  EXPECT_EQ(first_bad_feature("{"), "");
+}
+
+TEST(GeoJsonFault, OfATextSequenceTheLineIsNamed) {
+  const std::string good = R"({"geometry":{"coordinates":[1,2]}})",
+                    bad = R"({"id":7,"geometry":{"coordinates":["a",2]}})";
+  EXPECT_EQ(first_bad_feature(good + "\n\n" + bad + "\n"), "line 3 (id 7)");
+  EXPECT_EQ(first_bad_feature(good + "\n" + good), "");
+  EXPECT_EQ(first_bad_feature(good + "\n{"), "line 2");
+  EXPECT_EQ(first_bad_feature("\x1e{\n\"a\":\n1}\n\x1e\n" + bad), "line 5 (id 7)");
+  EXPECT_EQ(first_bad_feature(bad), "feature 1 (id 7)");
 }
 
 TEST(FootprintFormat, FilesAreKnownByTheirContent) {

@@ -113,6 +113,36 @@ TEST_F(FootprintLayer, BooleansAreNoHeights) {
   EXPECT_TRUE(has(why, "height is \"true\"")) << why;
 }
 
+TEST_F(FootprintLayer, AListOrAnObjectLeavesTheHeightsOfTheOtherFeatures) {
+  // GDAL alone makes lists of all of them.
+  const Model m = model(
+      collection({house("\"height\":[5,\n\"6:\\\"]\"],\"levels\":3"), house(R"("height":4)", 20),
+                  house(R"("height":{"m":[9]})", 40), house(R"("height":2.25)", 60)}));
+  EXPECT_EQ(heights(m)["feature 2"].high, 4);
+  EXPECT_EQ(heights(m)["feature 4"].high, 2.25);
+  const Warning w = warning(m, "cannot be used");
+  EXPECT_EQ(w.count, 2u);
+  EXPECT_TRUE(has(w.first, R"(feature 1: height is "[5, "6:\"]"]")")) << w.first;
+  FootprintOptions options;
+  options.height = "geometry";  // GeoJSON's own member
+  EXPECT_TRUE(has(refusal(collection({house(R"("height":4)")}), options), "no attribute"));
+}
+
+TEST_F(FootprintLayer, ReasonsOfARefusalAreNoWarnings) {
+  const auto expect = [&](const std::string& text, const std::string& part) {
+    const std::string why = refusal(text);
+    EXPECT_TRUE(why.ends_with("town.geojson: " + part)) << why;
+  };
+  const std::string nowhere = feature(R"("height":5)", "null");
+  expect(collection({nowhere}), "its only feature has no geometry.");
+  expect(collection({nowhere, nowhere}), "none of its 2 features has a geometry.");
+  expect(collection({house(R"("height":true)")}),
+         "its only feature has no height that can be used (feature 1: height is \"true\").");
+  expect(collection({house(R"("building":"no")"), nowhere}),
+         "none of its 2 features is the footprint of a building (1 x Features with building=no "
+         "were left out; 1 x Features without a geometry were left out).");
+}
+
 TEST_F(FootprintLayer, ListsAndObjectsInPackedTagsAreNoHeights) {
   const Model m = model(collection({house(R"("tags":{"height":"9","colour":["red"]})"),
                                     house(R"("tags":{"height":[9]})", 20),
@@ -140,7 +170,7 @@ TEST_F(FootprintLayer, FeaturesWithoutHeightAreCountedAndAFileOfThemIsRefused) {
               w.what.size() < 250)
       << w.what;
   const std::string why = refusal(collection({house(R"("use":"x","stock":2)")}));
-  EXPECT_TRUE(has(why, "none of its 1 footprints has a height")) << why;
+  EXPECT_TRUE(has(why, "its only footprint has no height (looked")) << why;
   EXPECT_TRUE(has(why, "its attributes: use, stock")) << why;
 }
 

@@ -5,6 +5,7 @@
 
 #include <gnomon/io/footprints.h>
 #include <gnomon/io/triangulate.h>
+#include <gnomon/scene/objects.h>
 
 #include "io/footprint_test_files.h"
 
@@ -173,6 +174,9 @@ TEST_F(FootprintLayer, PartsReplaceTheOutlineAroundThem) {
   EXPECT_EQ(h["way/4"].high, 8);
   EXPECT_EQ(h["way/5"].high, 8) << "a part without an outline stays";
   EXPECT_EQ(m.surfaces[0].group, "BuildingPart");
+  Scene scene;
+  scene.surfaces = m.surfaces;
+  EXPECT_EQ(whole_objects(scene).names, (std::vector<std::string>{"way/1", "way/4", "way/5"}));
   EXPECT_EQ(warning(m, "replaced by the parts").count, 1u);
   EXPECT_EQ(warning(m, "leave open").count, 0u);
   EXPECT_EQ(warning(m, "without a height").count, 0u) << "a replaced outline needs none";

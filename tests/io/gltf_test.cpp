@@ -57,6 +57,10 @@ TEST_F(Gltf, NestedNodesComposeInDoubleAndNameTheirPath) {
   EXPECT_NEAR(turned.z, 2, 1e-9);
   EXPECT_EQ(m.surfaces[0].object, "site/house");
   EXPECT_EQ(m.surfaces[1].object, "site/shed");
+  EXPECT_EQ(m.surfaces[1].whole, 4u);
+  t.json["nodes"] = Json::parse(R"([{"name": "way/5", "mesh": 0}])");
+  const Model named = read("t.gltf", t.json.dump());
+  EXPECT_EQ(named.surfaces[0].whole, 5u);
 }
 
 TEST_F(Gltf, NodesOutsideTheDefaultSceneAreCounted) {

@@ -147,6 +147,16 @@ TEST(HostileIfc, WhatContainsItselfOverARelationIsNamed) {
   EXPECT_NE(place.error().message.find("contains itself"), std::string::npos);
 }
 
+TEST(HostileIfc, ASchemaWithControlCharactersDoesNotReachMessages) {
+  const auto place = read_ifc_place(
+      "ISO-10303-21;\nHEADER;\nFILE_SCHEMA(('IFC4\x1b[2J'));\nENDSEC;\nDATA;\nENDSEC;\n"
+      "END-ISO-10303-21;\n",
+      "t.ifc");
+  ASSERT_TRUE(place) << place.error().message;
+  ASSERT_FALSE(place.value().warnings.empty());
+  EXPECT_EQ(place.value().warnings[0].first, "t.ifc: \"IFC4?[2J\"");
+}
+
 TEST(HostileCrs, NamesOfAnyLengthAreReadWithoutRecursion) {
   const std::string spaces(1000000, ' ');
   EXPECT_EQ(short_crs(spaces + "x"), spaces + "x");

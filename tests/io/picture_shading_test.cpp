@@ -34,6 +34,7 @@ Small small() {
   Scene& s = out.scene;
   s.surfaces = {surface("Ground", "Ground", "Ground"), surface("house", "Building", "WallSurface"),
                 surface("house/1", "BuildingPart", "RoofSurface")};
+  s.surfaces[2].whole = 5;
   add(s, {0, 0, 0}, {4, 0, 0}, {0, 4, 0}, 0);  // 0: level
   add(s, {1, 1, 1}, {2, 1, 1}, {1, 2, 2}, 2);  // 1: roof that falls to the south, 45 degrees
   add(s, {1, 1, 0}, {2, 1, 0}, {1, 1, 1}, 1);  // 2: south wall

@@ -23,6 +23,7 @@ Town town() {
   for (const char* object : {"house/1", "house/2", "say \"hi\", twice", "", "unseen"}) {
     Surface s;
     s.object = object;
+    if (s.object.starts_with("house/")) s.whole = 5;
     t.scene.surface_of.push_back(static_cast<std::uint32_t>(t.scene.surfaces.size()));
     t.scene.surfaces.push_back(s);
   }

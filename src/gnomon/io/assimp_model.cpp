@@ -116,13 +116,6 @@ void set_properties(Assimp::Importer& importer) {
   importer.SetPropertyBool(AI_CONFIG_IMPORT_IFC_SKIP_SPACE_REPRESENTATIONS, true);
 }
 
-// 3DS files without key frames have no nodes; Assimp leaves these alone as they are in the file.
-UpAxis up_of(const MeshFormat& format, const aiScene& scene) {
-  const bool as_it_is =
-      scene.mRootNode && std::string_view(scene.mRootNode->mName.C_Str()) == "<3DSDummyRoot>";
-  return as_it_is ? UpAxis::kZ : format.up;
-}
-
 // Frames of the formats whose other frames Assimp passes over without a word.
 std::uint32_t frames_of(const MeshFormat& format, std::string_view bytes) {
   const std::string_view name = format.name;
@@ -210,10 +203,9 @@ Result<Model> read_with_assimp(const std::string& path, std::string_view bytes,
   SceneAxes axes;
   double unit = format.unit;
   if (format.reader == MeshReader::kFbx) apply_fbx_settings(*scene, axes, unit);
-  const UpAxis stands = up_of(format, *scene);
-  if (stands == UpAxis::kZTurned && up == 'y') {
+  if (format.up == UpAxis::kZTurned && up == 'y') {
     axes = {{1, 0, 0}, {0, -1, 0}, {0, 0, -1}};  // the file's x, y, z are Assimp's x, -z, y
-  } else if ((stands == UpAxis::kZ && up != 'y') || (stands == UpAxis::kY && up == 'z')) {
+  } else if ((format.up == UpAxis::kZ && up != 'y') || (format.up == UpAxis::kY && up == 'z')) {
     axes = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   }
   if (!format.unit_stated && metres_per_unit != 0) unit = metres_per_unit;

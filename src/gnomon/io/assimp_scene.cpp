@@ -58,7 +58,7 @@ class Walk {
   std::optional<Error> run() {
     if (!scene_.mRootNode) return std::nullopt;
     if (auto error = find_bones(*scene_.mRootNode, Mat4(1), 0)) return error;
-    if (auto error = visit(*scene_.mRootNode, Mat4(1), "", "")) return error;
+    if (auto error = visit(*scene_.mRootNode, Mat4(1), "", 0, "")) return error;
     report();
     return std::nullopt;
   }
@@ -82,7 +82,7 @@ class Walk {
   }
 
   std::optional<Error> visit(const aiNode& node, const Mat4& parent, std::string object,
-                             std::string type) {
+                             std::size_t whole, std::string type) {
     const Mat4 here = parent * to_double(node.mTransformation);
     const std::string_view name = text(node.mName);
     if (ifc_) {
@@ -93,6 +93,7 @@ class Walk {
     } else if (!made_up(name)) {
       if (!object.empty()) object += '/';
       object += name;
+      if (whole == 0) whole = object.size();
     }
     if (ifc_ && is_not_built(type)) {
       warn(builder_.model.warnings,
@@ -106,10 +107,11 @@ class Walk {
         return Error{fmt::format("{}: object {}: there is no mesh {} in the file; export it again.",
                                  path(), in_quotes(object), node.mMeshes[k])};
       }
-      if (auto error = add(*scene_.mMeshes[node.mMeshes[k]], here, object, type)) return error;
+      if (auto error = add(*scene_.mMeshes[node.mMeshes[k]], here, object, whole, type))
+        return error;
     }
     for (unsigned k = 0; k < node.mNumChildren; ++k) {
-      if (auto error = visit(*node.mChildren[k], here, object, type)) return error;
+      if (auto error = visit(*node.mChildren[k], here, object, whole, type)) return error;
     }
     return std::nullopt;
   }
@@ -155,7 +157,7 @@ class Walk {
   }
 
   std::optional<Error> add(const aiMesh& mesh, const Mat4& node, const std::string& object,
-                           const std::string& type) {
+                           std::size_t whole, const std::string& type) {
     const std::string_view mesh_name = text(mesh.mName);
     const auto where = [&] {
       return fmt::format("{}: object {}, mesh {}", path(), in_quotes(object, 200),
@@ -170,8 +172,8 @@ class Walk {
     const std::vector<Vec3> at = positions(mesh, node);
     constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
     std::vector<std::uint32_t> vertex_of(at.size(), kNone);
-    const std::uint32_t surface =
-        builder_.surface(object, ifc_ ? std::string_view(type) : mesh_name, material_of(mesh), "");
+    const std::uint32_t surface = builder_.surface(
+        object, ifc_ ? std::string_view(type) : mesh_name, material_of(mesh), "", whole);
     std::uint32_t& number = polygons_of_[object];
     std::vector<std::vector<std::uint32_t>> ring(1);
     std::size_t points_and_lines = 0;

@@ -164,8 +164,9 @@ struct Reader {
     }
     const std::string material_name = name(materials, material, "name", "Materials");
     const std::string semantic_name = name(semantics, semantic, "type", "Semantic surfaces");
-    polygons.add(std::move(rings), document.reading.builder.surface(of.object, of.object_type,
-                                                                    material_name, semantic_name));
+    polygons.add(std::move(rings),
+                 document.reading.builder.surface(of.object, of.object_type, material_name,
+                                                  semantic_name, of.whole));
     return true;
   }
 

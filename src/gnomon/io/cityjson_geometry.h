@@ -49,6 +49,7 @@ int depth_of(const std::string& type);
 
 struct GeometryOf {
   std::string object;       // full name
+  std::size_t whole = 0;    // see Surface
   std::string object_type;  // CityJSON type
   std::size_t number = 0;   // in the object's list of geometries
 };

@@ -187,7 +187,8 @@ bool read_objects(Reading& reading, const Json& json) {
       if (reading.lod.empty() && flat(c.lod) && others_serve) continue;
       any = true;
       any_flat = any_flat || flat(c.lod);
-      const GeometryOf of{object.name, object.type, c.number};
+      const std::size_t whole = object.chain.size() > 1 ? object.chain.front().size() : 0;
+      const GeometryOf of{object.name, whole, object.type, c.number};
       if (!read_geometry(document, of, *c.geometry, polygons)) return false;
     }
     polygons.finish();

@@ -19,8 +19,8 @@
 
 #include <gnomon/core/lower_case.h>
 #include <gnomon/io/gdal_support.h>
-#include <gnomon/io/geojson_booleans.h>
 #include <gnomon/io/geojson_fault.h>
+#include <gnomon/io/geojson_values.h>
 #include <gnomon/io/osm_tags.h>
 #include <gnomon/io/read_text.h>
 
@@ -330,13 +330,14 @@ Result<FootprintFile> read_footprint_file(const std::filesystem::path& path,
 
   auto opened = open(path, errors);
   if (!opened) return opened.error();
-  // GDAL takes true for the number 1 where other features have numbers.
+  // GDAL takes true for the number 1 where other features have numbers, and these for lists where
+  // another feature has one.
   std::string text;
   std::optional<FileInMemory> in_memory;
   Dataset dataset = std::move(opened).value();
   if (driver_of(dataset.get()).starts_with("GeoJSON")) {
     const auto whole = read_text(path);
-    if (whole) text = booleans_as_text(whole.value(), wanted);
+    if (whole) text = odd_values_as_text(whole.value(), wanted);
     if (!text.empty()) {
       in_memory.emplace(text, path.filename().string());
       dataset = open_with_drivers(in_memory->name());

@@ -94,10 +94,12 @@ class Reader {
     return file_.several_layers ? fmt::format("{}: layer {}", path_, in_quotes(file_.layer))
                                 : path_;
   }
+  static std::string name_in_layer(const FootprintFeature& f) {
+    return f.id.empty() ? fmt::format("feature {}", f.number)
+                        : fmt::format("feature {} (id {})", f.number, printable(f.id, 200));
+  }
   std::string name(const FootprintFeature& f) const {
-    return f.id.empty()
-               ? fmt::format("{}: feature {}", layer(), f.number)
-               : fmt::format("{}: feature {} (id {})", layer(), f.number, printable(f.id, 200));
+    return fmt::format("{}: {}", layer(), name_in_layer(f));
   }
   void warning(std::string_view what, const FootprintFeature& f, const std::string& why = {}) {
     warn(builder_.model.warnings, what, why.empty() ? name(f) : name(f) + ": " + why);
@@ -239,28 +241,50 @@ class Reader {
         ++without_height_;
       } else {
         warning("Footprints whose height cannot be used were left out.", *b.feature, problems_[k]);
-        if (problem_.empty()) problem_ = name(*b.feature) + ": " + problems_[k];
+        if (problem_.empty()) problem_ = name_in_layer(*b.feature) + ": " + problems_[k];
       }
     }
   }
 
   Error nothing() const {
     if (file_.features.empty()) return {fmt::format("{}: it has no features.", layer())};
+    const std::size_t count = file_.features.size();
     if (!problem_.empty()) {
-      return {fmt::format("{}: none of its {} features has a height that can be used ({}).",
-                          layer(), file_.features.size(), problem_)};
+      return {fmt::format("{}: {} that can be used ({}).", layer(),
+                          none_of(count, "feature", "has a height", "has no height"), problem_)};
     }
     if (without_height_ > 0) {
       return {fmt::format(
-          "{}: none of its {} footprints has a height (looked for {}); its attributes: {}; "
-          "name the one with the height (--height-attribute) or the number of storeys "
-          "(--floors-attribute).",
-          layer(), without_height_, looked_for(), attributes())};
+          "{}: {} (looked for {}); its attributes: {}; name the one with the height "
+          "(--height-attribute) or the number of storeys (--floors-attribute).",
+          layer(), none_of(without_height_, "footprint", "has a height", "has no height"),
+          looked_for(), attributes())};
     }
-    const Warnings& warnings = builder_.model.warnings;
-    return {fmt::format("{}: none of its {} features is the footprint of a building: {}", layer(),
-                        file_.features.size(),
-                        warnings.empty() ? "there are no polygons." : warnings.back().what)};
+    if (std::none_of(file_.features.begin(), file_.features.end(),
+                     [](const FootprintFeature& f) { return f.has_geometry; })) {
+      return {fmt::format("{}: {}.", layer(),
+                          none_of(count, "feature", "has a geometry", "has no geometry"))};
+    }
+    return {fmt::format("{}: {} the footprint of a building ({}).", layer(),
+                        none_of(count, "feature", "is", "is not"), left_out())};
+  }
+
+  static std::string none_of(std::size_t count, std::string_view what, std::string_view is,
+                             std::string_view is_not) {
+    return count == 1 ? fmt::format("its only {} {}", what, is_not)
+                      : fmt::format("none of its {} {}s {}", count, what, is);
+  }
+
+  // "2 x Features with building=no were left out".
+  std::string left_out() const {
+    std::string out;
+    for (const Warning& w : builder_.model.warnings) {
+      constexpr std::string_view kEnd = "were left out.";
+      if (!w.what.ends_with(kEnd)) continue;
+      out += fmt::format("{}{} x {}", out.empty() ? "" : "; ", w.count,
+                         std::string_view(w.what).substr(0, w.what.size() - 1));
+    }
+    return out.empty() ? "there are no polygons" : out;
   }
 
   // A name that no other feature has.
@@ -323,6 +347,7 @@ class Reader {
               *b.feature);
     }
     const std::string object = object_of(static_cast<std::size_t>(&b - buildings_.data()));
+    const std::size_t whole = b.outline != kNoOutline ? object_of(b.outline).size() : 0;
     const bool raised = b.heights.from > 0;
     // Names that ground.h understands: what is raised and does not belong to a building on the
     // ground says nothing about the ground.
@@ -332,7 +357,7 @@ class Reader {
         : b.kind == Kind::kPart && b.outline != kNoOutline    ? "BuildingPart"
                                                               : "Building";
     const auto surface = [&](std::string_view semantic) {
-      return builder_.surface(object, group, "", semantic);
+      return builder_.surface(object, group, "", semantic, whole);
     };
     const std::uint32_t roof = surface("RoofSurface"), wall = surface("WallSurface");
     const std::uint32_t floor = surface(raised ? "OuterCeilingSurface" : "GroundSurface");

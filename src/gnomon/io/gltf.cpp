@@ -93,7 +93,7 @@ class GltfReader {
     auto roots = find_roots();
     if (!roots) return roots.error();
     for (const std::size_t r : roots.value()) {
-      if (auto error = place(r, Mat4(1), "", 0)) return *error;
+      if (auto error = place(r, Mat4(1), "", 0, 0)) return *error;
     }
     for (const Placed& p : placed_) {
       if (auto error = add_node(p)) return *error;
@@ -126,6 +126,7 @@ class GltfReader {
     std::size_t node;
     Mat4 world;
     std::string object;
+    std::size_t whole;  // see Surface
   };
 
   Error damaged(const std::string& what) const {
@@ -181,7 +182,8 @@ class GltfReader {
     }
   }
 
-  std::optional<Error> place(std::size_t k, const Mat4& parent, std::string object, int depth) {
+  std::optional<Error> place(std::size_t k, const Mat4& parent, std::string object,
+                             std::size_t whole, int depth) {
     const Json* node = element(nodes_, k);
     if (world_.contains(k)) {
       return damaged(fmt::format("node {} stands under two nodes or within itself.", k));
@@ -199,7 +201,8 @@ class GltfReader {
     world_.emplace(k, here);
     const std::string name = cityjson::text(member(node, "name"));
     if (!name.empty()) object += (object.empty() ? "" : "/") + name;
-    if (member(node, "mesh")) placed_.push_back({k, here, object});
+    if (whole == 0) whole = object.size();
+    if (member(node, "mesh")) placed_.push_back({k, here, object, whole});
     const Json* children = member(node, "children");
     for (std::size_t c = 0; c < size_of(children); ++c) {
       const auto child = cityjson::index_below(element(children, c), size_of(nodes_));
@@ -207,7 +210,7 @@ class GltfReader {
         return damaged(fmt::format("node {}: there is no node {} for its child.", k,
                                    cityjson::kind_of(element(children, c))));
       }
-      if (auto error = place(*child, here, object, depth + 1)) return error;
+      if (auto error = place(*child, here, object, whole, depth + 1)) return error;
     }
     return std::nullopt;
   }
@@ -269,7 +272,8 @@ class GltfReader {
     std::vector<Vec3> placed;
     for (std::size_t k = 0; k < count; ++k) placed.push_back(moved(p.world, at(positions, k)));
     if (auto error = apply_skin(node, *attributes, where, positions, placed)) return error;
-    return add_triangles(*mode, indices, positions, placed, object, mesh, primitive, where);
+    return add_triangles(*mode, indices, positions, placed, object, p.whole, mesh, primitive,
+                         where);
   }
 
   std::optional<Error> find_indices(const Json& primitive, const std::string& where,
@@ -375,14 +379,14 @@ class GltfReader {
   std::optional<Error> add_triangles(std::size_t mode, const std::vector<std::uint32_t>& indices,
                                      const std::vector<double>& raw,
                                      const std::vector<Vec3>& placed, const std::string& object,
-                                     const Json& mesh, const Json& primitive,
+                                     std::size_t whole, const Json& mesh, const Json& primitive,
                                      const std::string& where) {
     const Json* materials = member(&f_.json, "materials");
     const auto material = cityjson::index_below(member(&primitive, "material"), size_of(materials));
     const std::uint32_t surface = builder_.surface(
         object, cityjson::text(member(&mesh, "name")),
         material ? cityjson::text(member(element(materials, *material), "name")) : std::string(),
-        "");
+        "", whole);
     constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
     std::vector<std::uint32_t> vertex_of(placed.size(), kNone);
     std::uint32_t& number = polygons_of_[object];

@@ -4,6 +4,7 @@
 #include <gnomon/io/ifc_map.h>
 #include <gnomon/io/ifc_place.h>
 #include <gnomon/io/ifc_units.h>
+#include <gnomon/io/read_text.h>
 
 #include <cmath>
 
@@ -199,7 +200,7 @@ Result<IfcPlace> read_ifc_place(std::string_view text, const std::string& path) 
   place.schema = ifc_schema(file);
   if (!place.schema.starts_with("IFC2X3")) {
     warn(place.warnings, "The file's schema is not IFC2x3; what IFC2x3 does not have was left out.",
-         fmt::format("{}: {}", path, place.schema));
+         fmt::format("{}: {}", path, in_quotes(place.schema)));
   }
   if (const auto unit = ifc_project_unit(file)) {
     place.metres_per_unit = unit->metres;

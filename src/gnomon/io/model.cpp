@@ -25,7 +25,8 @@ std::uint32_t ModelBuilder::vertex(const Vec3& raw) {
 }
 
 std::uint32_t ModelBuilder::surface(std::string_view object, std::string_view group,
-                                    std::string_view material, std::string_view semantic) {
+                                    std::string_view material, std::string_view semantic,
+                                    std::size_t whole) {
   std::string key;
   for (const std::string_view name : {object, group, material, semantic}) {
     key += fmt::format("{}:", name.size());  // lengths keep "a","bc" and "ab","c" apart
@@ -36,6 +37,7 @@ std::uint32_t ModelBuilder::surface(std::string_view object, std::string_view gr
   if (added) {
     Surface s;
     s.object = object;
+    s.whole = static_cast<std::uint32_t>(whole);
     s.group = group;
     s.material = material;
     s.semantic = semantic;

@@ -56,9 +56,9 @@ class ModelBuilder {
 
   // Index of the vertex in model.vertices.
   std::uint32_t vertex(const Vec3& raw);
-  // Index of the surface with these names in model.surfaces.
+  // Index of the surface with these names in model.surfaces. `whole`: see Surface.
   std::uint32_t surface(std::string_view object, std::string_view group, std::string_view material,
-                        std::string_view semantic);
+                        std::string_view semantic, std::size_t whole = 0);
   void polygon(std::uint32_t surface, std::uint32_t number,
                const std::vector<std::vector<std::uint32_t>>& rings);
 

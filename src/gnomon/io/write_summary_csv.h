@@ -24,8 +24,8 @@ struct ObjectHours {
 };
 
 // First "(all)", then the objects that have samples, in the order in which the scene names them.
-// Parts count with their parent: an object's name ends at the first '/'. Surfaces without an object
-// are "(no name)" together. Preconditions: receivers are the profile's, step_ms > 0.
+// Parts count with their parent (Surface::whole). Surfaces without an object are "(no name)"
+// together. Preconditions: receivers are the profile's, step_ms > 0.
 std::vector<ObjectHours> hours_by_object(const Profile& profile, const Receivers& receivers,
                                          const Scene& scene, std::uint64_t step_ms);
 

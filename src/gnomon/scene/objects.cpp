@@ -12,7 +12,7 @@ Objects grouped(const Scene& scene, const Name& name_of) {
   out.of_surface.reserve(scene.surfaces.size());
   std::map<std::pair<std::uint32_t, std::string>, std::uint32_t> numbers;
   for (const Surface& s : scene.surfaces) {
-    std::string name = name_of(s.object);
+    std::string name = name_of(s);
     const auto number = static_cast<std::uint32_t>(out.names.size());
     const auto [at, is_new] = numbers.try_emplace({s.file, name}, number);
     if (is_new) out.names.push_back(std::move(name));
@@ -24,11 +24,12 @@ Objects grouped(const Scene& scene, const Name& name_of) {
 }  // namespace
 
 Objects objects(const Scene& scene) {
-  return grouped(scene, [](const std::string& name) { return name; });
+  return grouped(scene, [](const Surface& s) { return s.object; });
 }
 
 Objects whole_objects(const Scene& scene) {
-  return grouped(scene, [](const std::string& name) { return name.substr(0, name.find('/')); });
+  return grouped(
+      scene, [](const Surface& s) { return s.whole > 0 ? s.object.substr(0, s.whole) : s.object; });
 }
 
 }  // namespace gnomon

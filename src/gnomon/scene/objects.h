@@ -17,7 +17,7 @@ struct Objects {
 // Surfaces of one file (Surface::file) and one object name are an object.
 Objects objects(const Scene& scene);
 
-// The same, but a part ("parent/part") counts with its parent: by the name up to the first '/'.
+// The same, but a part ("parent/part") counts with its outermost parent (Surface::whole).
 Objects whole_objects(const Scene& scene);
 
 }  // namespace gnomon

@@ -15,8 +15,10 @@ namespace gnomon {
 
 // A class of triangles that are chosen together. Names are empty where the file has none.
 struct Surface {
-  std::string object;  // id of the city object or OBJ object; parts as "parent/part"
-  std::string group;   // OBJ group; CityJSON object type ("Building", "BuildingPart", "TINRelief")
+  std::string object;       // id of the city object or OBJ object; parts as "parent/part"
+  std::uint32_t whole = 0;  // length, within object, of the name of the outermost parent; 0: object
+                            // is no part. Ids may hold '/' of their own ("way/5").
+  std::string group;  // OBJ group; CityJSON object type ("Building", "BuildingPart", "TINRelief")
   std::string material;  // OBJ material; CityJSON material name
   std::string semantic;  // CityJSON semantic surface ("RoofSurface", "WallSurface", ...); "Ground"
                          // for --ground
