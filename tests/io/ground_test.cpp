@@ -26,6 +26,9 @@ std::uint32_t add_surface(Scene& s, const std::string& object, const std::string
   surface.group = group;
   surface.semantic = semantic;
   surface.city = true;
+  if (const auto slash = object.find('/'); slash != std::string::npos) {
+    surface.whole = static_cast<std::uint32_t>(slash);
+  }
   s.surfaces.push_back(surface);
   return static_cast<std::uint32_t>(s.surfaces.size() - 1);
 }

@@ -46,9 +46,9 @@ bool is_aloof(std::string_view group) {
                      [&](std::string_view word) { return group.find(word) != group.npos; });
 }
 
-std::string parent(const std::string& object) {
-  const std::size_t slash = object.rfind('/');
-  return slash == std::string::npos ? "" : object.substr(0, slash);
+// The outermost building of a part; empty where the object is none.
+std::string parent(const Surface& s) {
+  return s.whole > 0 && s.whole < s.object.size() ? s.object.substr(0, s.whole) : "";
 }
 
 template <class T>
@@ -133,7 +133,7 @@ Footprints find_footprints(const Scene& scene) {
     if (ground || contains(kCityObjects, s.group) || is_aloof(s.group)) cities.insert(s.file);
     if (!ground) continue;
     grounded.insert({s.file, s.object});
-    if (s.group.ends_with("Part")) grounded_parents.insert({s.file, parent(s.object)});
+    if (s.group.ends_with("Part")) grounded_parents.insert({s.file, parent(s)});
   }
   // Files at sites of their own have heights of their own.
   const bool placed = !scene.frame.crs.empty();
@@ -159,8 +159,8 @@ Footprints find_footprints(const Scene& scene) {
     } else if (!is_aloof(s.group) && !grounded.count({s.file, s.object})) {
       // Parts without a bottom stand on their siblings, and a building on its parts, if those have
       // one.
-      const bool part = s.group.ends_with("Part") && !parent(s.object).empty();
-      const Name whole{s.file, part ? parent(s.object) : s.object};
+      const bool part = s.group.ends_with("Part") && !parent(s).empty();
+      const Name whole{s.file, part ? parent(s) : s.object};
       if (!grounded.count(whole) && !grounded_parents.count(whole)) role[k] = belongs_to(whole);
     }
   }
