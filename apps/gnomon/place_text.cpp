@@ -32,11 +32,11 @@ std::string place_line(const LoadedScene& loaded) {
 void check_place(Warnings& warnings, const Place& place, const std::string& zone) {
   const auto home = zone_reference(zone);
   if (!home) return;
-  const double distance = surface_distance(place, *home);
+  const double distance = distance_between(place, *home);
   if (distance <= kSwapped) return;
   const Place swapped{place.longitude, place.latitude, 0};
   const bool nearer = std::abs(swapped.latitude) <= kPi / 2 &&
-                      surface_distance(swapped, *home) < kMuchNearer * distance;
+                      distance_between(swapped, *home) < kMuchNearer * distance;
   if (!nearer && distance <= kFar) return;
   warn(warnings,
        fmt::format("the place {} lies {:.0f} km from {}'s own: {}", degrees_text(place),

@@ -24,13 +24,5 @@ TEST(ZonePlace, IsNoneOfClocksWithoutAHome) {
     EXPECT_FALSE(zone_reference(zone)) << zone;
 }
 
-TEST(ZonePlace, DistancesAreThoseOfASphere) {
-  const Place pole{90 * kDegree, 0, 0}, equator{0, 123 * kDegree, 500};
-  EXPECT_NEAR(surface_distance(pole, equator), 6371e3 * kPi / 2, 1e-3);
-  EXPECT_EQ(surface_distance(pole, pole), 0);
-  EXPECT_NEAR(surface_distance({0, -179 * kDegree, 0}, {0, 179 * kDegree, 0}), 6371e3 * 2 * kDegree,
-              1e-3);
-}
-
 }  // namespace
 }  // namespace gnomon

@@ -3,7 +3,6 @@
 #include <gnomon/sun/zone_place.h>
 
 #include <charconv>
-#include <cmath>
 #include <fstream>
 #include <sstream>
 #include <string_view>
@@ -13,7 +12,6 @@ namespace {
 
 // Where the date library finds the compiled zones, as well.
 constexpr const char* kZoneTable = "/usr/share/zoneinfo/zone.tab";
-constexpr double kEarthRadius = 6371e3;  // metres, mean
 
 // "+4813" or "+481234" -> radians.
 std::optional<double> read_angle(std::string_view text, std::size_t degree_digits) {
@@ -55,13 +53,6 @@ std::optional<Place> zone_reference(const std::string& zone) {
     }
   }
   return {};
-}
-
-double surface_distance(const Place& a, const Place& b) {
-  const double up = std::sin((b.latitude - a.latitude) / 2),
-               along = std::sin((b.longitude - a.longitude) / 2);
-  const double h = up * up + std::cos(a.latitude) * std::cos(b.latitude) * along * along;
-  return 2 * kEarthRadius * std::asin(std::sqrt(std::fmin(1.0, h)));
 }
 
 }  // namespace gnomon

@@ -13,7 +13,4 @@ namespace gnomon {
 // unknown ones, and where this machine has no zone.tab.
 std::optional<Place> zone_reference(const std::string& zone);
 
-// Metres along the Earth, taken as a sphere; heights do not count.
-double surface_distance(const Place& a, const Place& b);
-
 }  // namespace gnomon
