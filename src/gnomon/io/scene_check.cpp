@@ -1,7 +1,6 @@
 #include <gnomon/io/scene_check.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -11,9 +10,9 @@
 #include <gnomon/io/crs.h>
 #include <gnomon/io/file_place.h>
 #include <gnomon/io/footprints.h>
-#include <gnomon/io/ground_at.h>
 #include <gnomon/io/place_model.h>
 #include <gnomon/io/read_text.h>
+#include <gnomon/io/scene_ground.h>
 #include <gnomon/scene/objects.h>
 #include <glm/common.hpp>
 
@@ -85,17 +84,6 @@ std::vector<Thing> things_of(const Scene& scene, const std::vector<SceneFile>& f
   });
   std::erase_if(things, [](const Thing& t) { return t.feet.empty(); });
   return things;
-}
-
-GroundAt terrain_of(const Scene& scene) {
-  std::vector<std::array<Vec3, 3>> corners;
-  for (std::size_t t = 0; t < scene.mesh.triangles.size(); ++t) {
-    if (!is_terrain(scene.surfaces[scene.surface_of[t]])) continue;
-    const Triangle& v = scene.mesh.triangles[t];
-    corners.push_back(
-        {scene.mesh.positions[v[0]], scene.mesh.positions[v[1]], scene.mesh.positions[v[2]]});
-  }
-  return corners.empty() ? GroundAt() : ground_at(std::move(corners));
 }
 
 // Below the first of its feet that has terrain below: terrain often ends between neighbours' walls.
@@ -246,7 +234,7 @@ void warn_of_overlapping_surfaces(const std::vector<SceneFile>& files, Warnings&
 void warn_of_heights(Scene& scene, const std::vector<SceneFile>& files) {
   const std::vector<Thing> things = things_of(scene, files);
   if (things.empty()) return;
-  const GroundAt terrain = terrain_of(scene);
+  const GroundAt terrain = terrain_at(scene);
   const Neighbours neighbours(things);
   for (const Thing& one : things) {
     std::optional<double> ground;

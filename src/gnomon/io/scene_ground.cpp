@@ -53,11 +53,11 @@ struct Border {
 };
 
 // Of the edges that belong to one triangle only.
-Border border_of(const Scene& scene, const std::vector<std::uint32_t>& terrain) {
+Border border_of(const Scene& scene) {
   using Edge = std::pair<std::uint32_t, std::uint32_t>;
   std::vector<Edge> edges;
-  edges.reserve(3 * terrain.size());
-  for (const std::uint32_t t : terrain) {
+  for (std::size_t t = 0; t < scene.mesh.triangles.size(); ++t) {
+    if (!is_terrain(scene.surfaces[scene.surface_of[t]])) continue;
     const Triangle& v = scene.mesh.triangles[t];
     for (int k = 0; k < 3; ++k) edges.push_back(std::minmax(v[k], v[(k + 1) % 3]));
   }
@@ -105,18 +105,21 @@ Vec3 nearest_vertex(const std::vector<Vec3>& border, double x, double y) {
 
 }  // namespace
 
-GroundAt ground_of(const Scene& scene, std::size_t& beside_terrain) {
-  std::vector<std::uint32_t> terrain;
+GroundAt terrain_at(const Scene& scene) {
   std::vector<std::array<Vec3, 3>> corners;
-  for (std::uint32_t t = 0; t < scene.mesh.triangles.size(); ++t) {
+  for (std::size_t t = 0; t < scene.mesh.triangles.size(); ++t) {
     if (!is_terrain(scene.surfaces[scene.surface_of[t]])) continue;
     const Triangle& v = scene.mesh.triangles[t];
-    terrain.push_back(t);
     corners.push_back(
         {scene.mesh.positions[v[0]], scene.mesh.positions[v[1]], scene.mesh.positions[v[2]]});
   }
+  return corners.empty() ? GroundAt() : ground_at(std::move(corners));
+}
+
+GroundAt ground_of(const Scene& scene, std::size_t& beside_terrain) {
   const Vec3 origin = scene.frame.origin;
-  if (terrain.empty()) {
+  const GroundAt terrain = terrain_at(scene);
+  if (!terrain) {
     const auto feet = std::make_shared<const std::vector<Foot>>(feet_of(scene));
     std::vector<Bounds2> boxes;
     for (const Foot& f : *feet) boxes.push_back(f.box);
@@ -127,11 +130,10 @@ GroundAt ground_of(const Scene& scene, std::size_t& beside_terrain) {
       return (*feet)[*nearest].z + origin.z;
     };
   }
-  const auto border = std::make_shared<const Border>(border_of(scene, terrain));
-  return [below = ground_at(std::move(corners)), border, origin, &beside_terrain](
-             double x, double y) -> std::optional<double> {
+  const auto border = std::make_shared<const Border>(border_of(scene));
+  return [terrain, border, origin, &beside_terrain](double x, double y) -> std::optional<double> {
     const Vec2 p(x - origin.x, y - origin.y);
-    auto z = below(p.x, p.y);
+    auto z = terrain(p.x, p.y);
     if (!z && !border->vertices.empty()) {
       const Vec3 nearest = nearest_vertex(border->vertices, p.x, p.y);
       if (std::hypot(nearest.x - p.x, nearest.y - p.y) > border->half_cell) ++beside_terrain;
