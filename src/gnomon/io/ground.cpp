@@ -54,9 +54,9 @@ static_assert(kAround[1] * (1 + kRingBend) < kRingMin);
 constexpr double kSettled = 1e-3;
 constexpr int kSweeps = 500;
 
-// GEOS joins the holes of a polygon in a time that grows with the square of their number: 2500
-// houses take 0.8 s, 5000 take 2.2 s, 150000 had not ended after ten minutes. On level ground the
-// holes can be left out (docs/ground.md); above so many triangles of footprints they are.
+// GEOS joins the holes of a polygon in a time that grows with the square of their number. On level
+// ground the holes can be left out (docs/ground.md); above so many triangles of footprints, some
+// thousand houses and some seconds, they are.
 constexpr std::size_t kMostHoles = 20000;
 
 // ---- vertices and heights

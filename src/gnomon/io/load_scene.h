@@ -27,14 +27,15 @@ struct Site {
       : place(at), on_ground(stands_on_ground) {}
 };
 
-// What some files of a scene need to be told, where others do not. Empty members say nothing.
+// What some files of a scene need to be told, where others do not: as the members of LoadOptions of
+// the same names. Empty ones say nothing.
 struct FileOptions {
-  std::string file = {};  // glob over the file's name or its path as given
-  char up = 0;
+  std::string file = {};  // the file's name, its path as given, or a glob over either
+  char up = 0;            // 'y' or 'z'
   std::string unit = {};
-  std::optional<double> north = {};
-  std::string crs = {};
-  std::optional<Site> site = {};
+  std::optional<double> north = {};  // radians
+  std::string crs = {};              // an error where the file names another one itself
+  std::optional<Site> site = {};     // an error where the file has a CRS; so is north
 };
 
 struct LoadOptions {
@@ -70,11 +71,12 @@ struct LoadedScene {
   std::size_t zero_area_triangles = 0;
 };
 
-// The scene's CRS is that of the first file that has one (a geographic one gives way to its UTM
-// zone); files in other CRSs are moved into it, horizontally; local models are put at their site,
-// turned by the meridian convergence. Footprints, heights above ground and models without a height
-// are placed last, on the ground of the others. A scene without any CRS keeps local coordinates; if
-// its files stand at different sites, it gets the UTM zone of the first. docs/placing.md.
+// The scene's CRS is that of the first model that has one, else of the first surface model or
+// footprints (a geographic one gives way to its UTM zone); files in other CRSs are moved into it,
+// horizontally; local models are put at their site, turned by the meridian convergence. Footprints,
+// heights above ground and models without a height are placed last, on the ground of the others. A
+// scene without any CRS keeps local coordinates; if its files stand at different sites, it gets the
+// UTM zone of the first. docs/placing.md.
 //
 // Errors name file and element. Nothing at all to cast a shadow is an error, and so are files that
 // lie more than 100 km apart.
