@@ -1,0 +1,87 @@
+// How shadows are drawn: every choice of the four papers in one struct, and the one function that
+// says which go together. docs/methods.md is generated from it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <gnomon/core/result.h>
+#include <gnomon/gl/capabilities.h>
+
+namespace gnomon::gl {
+
+// Where the shadow mask lives. Roettger, Irion and Ertl 2002, section 4.2.
+enum class MaskIn : std::uint8_t { stencil, alpha, screen };
+
+// How faces of the volumes are counted. z_pass: in front of the sample (Heidmann); z_fail: behind it
+// (Everitt and Kilgard, 2.2.3); near_cap: z-pass, and the volume's cut with the near plane as a front
+// face; zp_plus: z-pass, and the casters between near plane and light counted from the light first;
+// automatic: z-pass for each caster that the near clip volume does not meet ("Geometry of shadows in
+// real time", section 5), z-fail for the others; mixed: the same per connected lit region.
+enum class Count : std::uint8_t { z_pass, z_fail, near_cap, zp_plus, automatic, mixed };
+
+enum class StencilPasses : std::uint8_t { two_sided, culled };  // one pass; two with face culling
+enum class StencilOps : std::uint8_t { wrap, saturate };
+enum class VolumesOf : std::uint8_t { automatic, caster, polygon };
+enum class Arithmetic : std::uint8_t { doubling, maximum };  // of alpha and screen masks
+enum class FarPlane : std::uint8_t { automatic, infinite, clamp };
+enum class Extrusion : std::uint8_t { cpu, shader, blend, blend_large };
+enum class Primitives : std::uint8_t { quads, strips, fans };
+
+// What a shadow is in the picture. lights: each light adds its part where it is not shadowed; the
+// others are the first paper's for one light: black; ambient: and an ambient term added; attenuated:
+// the lit scene at half its brightness.
+enum class Shadows : std::uint8_t { lights, black, ambient, attenuated };
+
+struct Method {
+  MaskIn mask = MaskIn::stencil;
+  Count count = Count::automatic;
+  StencilPasses passes = StencilPasses::two_sided;
+  StencilOps ops = StencilOps::wrap;
+  VolumesOf volumes = VolumesOf::automatic;
+  Arithmetic arithmetic = Arithmetic::doubling;
+  FarPlane far_plane = FarPlane::automatic;
+  Extrusion extrusion = Extrusion::shader;
+  Primitives primitives = Primitives::quads;
+  Shadows shadows = Shadows::lights;
+  double mask_scale = 1;  // size of the mask over that of the picture, 0 < scale <= 1
+  int samples = 1;        // a pixel
+  bool keep_double_blending = false;  // KEEP instead of INCR where a light is added (stencil): the
+                                      // paper's 3.4; only where no two fragments share a depth
+};
+
+// What of scene, light and target matters to the decision.
+struct Situation {
+  bool parallel_view = false;
+  bool light_along_view = false;  // a parallel view exactly along a directional light
+  bool directional_light = false;
+  bool all_convex = true;      // every caster is closed and convex
+  bool near_shaded = false;    // some caster may shade the near rectangle (near clip volume)
+  bool target_stencil = true;  // the framebuffer can have a stencil attachment
+  bool target_alpha = true;
+  bool infinite_view = true;   // the view's far plane can be at infinity
+  int lights = 1;
+};
+
+// The method with every automatic choice made, or why it would not draw the stencil's mask. The
+// reason names the choice, the cause, and what to take instead.
+Result<Method> decide(Method wanted, const Situation& situation, const Capabilities& capabilities);
+
+// Names as the command line has them: "stencil", "zfail", "two-sided" ...
+std::string_view name_of(MaskIn);
+std::string_view name_of(Count);
+std::string_view name_of(StencilPasses);
+std::string_view name_of(StencilOps);
+std::string_view name_of(VolumesOf);
+std::string_view name_of(Arithmetic);
+std::string_view name_of(FarPlane);
+std::string_view name_of(Extrusion);
+std::string_view name_of(Primitives);
+std::string_view name_of(Shadows);
+
+// "stencil, zfail, two-sided, wrap, caster, ..." for messages and tables.
+std::string describe(const Method& method);
+
+}  // namespace gnomon::gl

@@ -1,0 +1,43 @@
+// The shaders of this room, compiled for OpenGL 3.3 core or OpenGL ES 3.0 from one text.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+
+#include <gnomon/core/result.h>
+#include <gnomon/core/vec.h>
+#include <gnomon/gl/handles.h>
+
+namespace gnomon::gl {
+
+// Attribute locations, the same in every program.
+inline constexpr GLuint kVertex = 0, kNormal = 1, kTexture = 2;
+
+// `defines`: lines put after the version ("#define BLEND\n").
+Result<ProgramHandle> compile(std::string_view name, std::string_view vertex,
+                              std::string_view fragment, const std::string& defines);
+
+// Uniforms by name; names that the program does not use are ignored. The program must be in use.
+void set(GLuint program, const char* name, int value);
+void set(GLuint program, const char* name, float value);
+void set(GLuint program, const char* name, const glm::vec3& value);
+void set(GLuint program, const char* name, const glm::vec4& value);
+void set(GLuint program, const char* name, const glm::mat3& value);
+void set(GLuint program, const char* name, const glm::mat4& value);
+
+struct Programs {
+  ProgramHandle volume[4];   // by Extrusion
+  ProgramHandle near_light;  // casters as the light sees them on the near plane (ZP+)
+  ProgramHandle flat;        // one colour on surfaces
+  ProgramHandle surface;     // lit surfaces
+  ProgramHandle masked_surface;  // the same, times a mask in a texture
+  ProgramHandle rectangle;   // one colour over the viewport, at the near plane
+  ProgramHandle texture;     // a texture over the viewport
+  ProgramHandle plain;       // vertices that are in clip space already, one colour
+};
+Result<Programs> compile_programs();
+
+}  // namespace gnomon::gl

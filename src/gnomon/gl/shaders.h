@@ -1,0 +1,194 @@
+// GLSL, common to 3.30 core and 3.00 ES. Every program computes gl_Position of a vertex at w = 1 by
+// the same expression on the same numbers, and says "invariant": surfaces, their redraws and the
+// caps of volumes get the same depth, bit for bit.
+#pragma once
+
+namespace gnomon::gl::shaders {
+
+// Sides and caps. a_vertex: a mesh vertex with w = 1, or w = 0 for the point behind it as seen from
+// the light. CPU: already extruded. Otherwise x - Lx by a subtraction (w = 1 light) as the CPU does
+// it, or two matrices blended by the weight w ("Accelerated Stencil Shadow Extrusion via Vertex
+// Blending"): here in mesh coordinates before the one matrix to clip space, where the paper has two
+// modelview matrices before one projection.
+inline constexpr const char* kVolumeVertex = R"(
+in vec4 a_vertex;
+uniform mat4 u_clip;
+#ifdef SHADER
+uniform vec4 u_light;
+#endif
+#ifdef BLEND
+uniform mat4 u_keep;
+uniform mat4 u_project;
+#endif
+invariant gl_Position;
+void main() {
+#if defined(SHADER)
+  vec4 p = a_vertex.w > 0.5 ? a_vertex : vec4(a_vertex.xyz * u_light.w - u_light.xyz, 0.0);
+#elif defined(BLEND)
+  vec4 v = vec4(a_vertex.xyz, 1.0);
+  vec4 p = (u_keep * v) * a_vertex.w + (u_project * v) * (1.0 - a_vertex.w);
+#else
+  vec4 p = a_vertex;
+#endif
+  gl_Position = u_clip * p;
+}
+)";
+
+inline constexpr const char* kColourFragment = R"(
+uniform vec4 u_colour;
+out vec4 o_colour;
+void main() { o_colour = u_colour; }
+)";
+
+// The shadow that a caster's vertex throws on the near plane n . X = 0: X' = (n.L) X - (n.X) L. What
+// lies beyond the plane is discarded; what lies beyond the light has w < 0 and is clipped.
+inline constexpr const char* kNearLightVertex = R"(
+in vec4 a_vertex;
+uniform mat4 u_clip;
+uniform vec4 u_light;
+uniform vec4 u_plane;
+uniform float u_light_side;
+out float v_side;
+void main() {
+  vec4 x = vec4(a_vertex.xyz, 1.0);
+  float side = dot(u_plane, x);
+  vec4 shadow = u_light_side * x - side * u_light;
+  vec4 p = u_clip * shadow;
+  v_side = side;
+  gl_Position = vec4(p.xy, 0.0, p.w);
+}
+)";
+inline constexpr const char* kNearLightFragment = R"(
+in float v_side;
+uniform vec4 u_colour;
+out vec4 o_colour;
+void main() {
+  if (v_side < 0.0) discard;
+  o_colour = u_colour;
+}
+)";
+
+inline constexpr const char* kFlatVertex = R"(
+in vec4 a_vertex;
+uniform mat4 u_clip;
+invariant gl_Position;
+void main() { gl_Position = u_clip * a_vertex; }
+)";
+
+inline constexpr const char* kSurfaceVertex = R"(
+in vec4 a_vertex;
+in vec3 a_normal;
+in vec2 a_texture;
+uniform mat4 u_clip;
+uniform mat4 u_model;
+uniform mat3 u_normal_matrix;
+invariant gl_Position;
+out vec3 v_position;
+out vec3 v_normal;
+out vec2 v_texture;
+void main() {
+  gl_Position = u_clip * a_vertex;
+  v_position = (u_model * a_vertex).xyz;
+  v_normal = u_normal_matrix * a_normal;
+  v_texture = a_texture;
+}
+)";
+
+// Blinn and Phong, per pixel, in the encoding of the picture. Both sides of a surface are drawn: the
+// normal is turned to the eye. Normal maps take their tangents from the derivatives of position and
+// texture coordinates.
+inline constexpr const char* kSurfaceFragment = R"(
+in vec3 v_position;
+in vec3 v_normal;
+in vec2 v_texture;
+uniform vec4 u_eye;
+uniform vec4 u_light;
+uniform vec3 u_light_colour;
+uniform vec3 u_ambient;
+uniform float u_emission;
+uniform vec3 u_attenuation;
+uniform float u_radius;
+uniform vec3 u_base;
+uniform vec3 u_emissive;
+uniform vec3 u_specular;
+uniform float u_shininess;
+uniform int u_has_base;
+uniform int u_has_normal;
+uniform sampler2D u_base_map;
+uniform sampler2D u_normal_map;
+#ifdef MASKED
+uniform sampler2D u_mask;
+uniform vec4 u_mask_channel;
+uniform vec2 u_mask_scale;
+#endif
+out vec4 o_colour;
+vec3 mapped_normal(vec3 n) {
+  vec3 dp1 = dFdx(v_position), dp2 = dFdy(v_position);
+  vec2 du1 = dFdx(v_texture), du2 = dFdy(v_texture);
+  vec3 dp2perp = cross(dp2, n), dp1perp = cross(n, dp1);
+  vec3 t = dp2perp * du1.x + dp1perp * du2.x;
+  vec3 b = dp2perp * du1.y + dp1perp * du2.y;
+  float scale = max(dot(t, t), dot(b, b));
+  if (scale <= 0.0) return n;
+  vec3 m = texture(u_normal_map, v_texture).xyz * 2.0 - 1.0;
+  // Texture rows run downwards, green upwards.
+  return normalize((t * m.x - b * m.y) * inversesqrt(scale) + n * m.z);
+}
+void main() {
+  vec3 base = u_base;
+  if (u_has_base == 1) base *= texture(u_base_map, v_texture).rgb;
+  vec3 to_eye = normalize(u_eye.xyz - v_position * u_eye.w);
+  vec3 n = normalize(v_normal);
+  if (dot(n, to_eye) < 0.0) n = -n;
+  if (u_has_normal == 1) n = mapped_normal(n);
+  vec3 towards = u_light.xyz - v_position * u_light.w;
+  float distance = length(towards);
+  vec3 l = towards / distance;
+  float reach = 1.0;
+  if (u_light.w != 0.0) {
+    reach = 1.0 / (u_attenuation.x + (u_attenuation.y + u_attenuation.z * distance) * distance);
+    if (u_radius > 0.0) {
+      float edge = clamp(1.0 - pow(distance / u_radius, 4.0), 0.0, 1.0);
+      reach *= edge * edge;
+    }
+  }
+  float diffuse = max(dot(n, l), 0.0);
+  vec3 lit = base * diffuse;
+  if (diffuse > 0.0 && u_shininess > 0.0)
+    lit += u_specular * pow(max(dot(n, normalize(l + to_eye)), 0.0), u_shininess);
+  lit *= u_light_colour * reach;
+#ifdef MASKED
+  lit *= dot(texture(u_mask, gl_FragCoord.xy * u_mask_scale), u_mask_channel);
+#endif
+  o_colour = vec4(lit + base * u_ambient + u_emissive * u_emission, 1.0);
+}
+)";
+
+// Over the whole viewport, at depth u_depth (-1: near plane).
+inline constexpr const char* kRectangleVertex = R"(
+uniform float u_depth;
+out vec2 v_texture;
+void main() {
+  vec2 p = vec2(float(gl_VertexID & 1), float(gl_VertexID >> 1));
+  v_texture = p;
+  gl_Position = vec4(p * 2.0 - 1.0, u_depth, 1.0);
+}
+)";
+inline constexpr const char* kTextureFragment = R"(
+in vec2 v_texture;
+uniform sampler2D u_image;
+uniform vec4 u_channel;
+uniform int u_one_channel;
+out vec4 o_colour;
+void main() {
+  vec4 texel = texture(u_image, v_texture);
+  o_colour = u_one_channel == 1 ? vec4(dot(texel, u_channel)) : texel;
+}
+)";
+
+inline constexpr const char* kPlainVertex = R"(
+in vec4 a_vertex;
+void main() { gl_Position = a_vertex; }
+)";
+
+}  // namespace gnomon::gl::shaders

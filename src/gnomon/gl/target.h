@@ -1,0 +1,39 @@
+// Framebuffers of our own: colour with alpha, depth with or without stencil, multisampled or not.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <gnomon/core/result.h>
+#include <gnomon/gl/handles.h>
+
+namespace gnomon::gl {
+
+// 8-bit RGBA, row-major, row 0 at the top.
+struct Image {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> rgba;
+};
+
+struct TargetFormat {
+  int width = 0, height = 0;
+  int samples = 1;
+  bool stencil = true;  // 24-bit depth with 8-bit stencil; without: 24-bit depth alone
+};
+
+struct Target {
+  TargetFormat format;
+  Framebuffer framebuffer;
+  Texture2D colour;            // RGBA8; of one sample a pixel
+  Renderbuffer colour_buffer;  // of several
+  Renderbuffer depth;
+};
+
+// Errors: the framebuffer is incomplete (names size and format). `depth_of`: shares its depth and
+// stencil instead of having its own.
+Result<Target> make_target(const TargetFormat& format, const Target* depth_of = nullptr);
+
+// The colours, resolved to one sample a pixel.
+Image read_colours(const Target& target);
+
+}  // namespace gnomon::gl

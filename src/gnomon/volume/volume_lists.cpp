@@ -1,0 +1,111 @@
+#include <gnomon/volume/volume_lists.h>
+
+#include <cstdlib>
+
+namespace gnomon {
+namespace {
+
+std::uint32_t near_vertex(std::uint32_t v) { return 2 * v; }
+std::uint32_t far_vertex(std::uint32_t v) { return 2 * v + 1; }
+
+// The side over the edge from a to b, counterclockwise where it is entered. Both halves meet in the
+// diagonal from a to b at infinity; a strip along a loop splits its quads in the same way.
+void push_side(std::vector<std::uint32_t>& list, std::uint32_t a, std::uint32_t b,
+               bool directional) {
+  if (directional) {
+    list.insert(list.end(), {far_vertex(a), near_vertex(a), near_vertex(b)});
+  } else {
+    list.insert(list.end(), {far_vertex(a), near_vertex(a), far_vertex(b),  //
+                             far_vertex(b), near_vertex(a), near_vertex(b)});
+  }
+}
+
+void push_caps(VolumeLists& lists, const Triangle& t, std::int8_t light_side, bool directional) {
+  auto& near_cap = light_side < 0 ? lists.light_cap : lists.light_cap_turned;
+  near_cap.insert(near_cap.end(), {near_vertex(t[0]), near_vertex(t[1]), near_vertex(t[2])});
+  if (directional) return;
+  // The dark cap is left where the light cap is entered: the other way round.
+  const std::uint32_t b = light_side < 0 ? t[2] : t[1], c = light_side < 0 ? t[1] : t[2];
+  lists.dark_cap.insert(lists.dark_cap.end(), {far_vertex(t[0]), far_vertex(b), far_vertex(c)});
+}
+
+std::uint32_t end_of(const std::vector<std::uint32_t>& list) {
+  return static_cast<std::uint32_t>(list.size());
+}
+
+Volume begin_volume(const VolumeLists& lists, std::uint32_t caster) {
+  Volume v;
+  v.caster = caster;
+  v.sides.first = end_of(lists.sides);
+  v.light_cap.first = end_of(lists.light_cap);
+  v.light_cap_turned.first = end_of(lists.light_cap_turned);
+  v.dark_cap.first = end_of(lists.dark_cap);
+  return v;
+}
+
+void end_volume(VolumeLists& lists, Volume v) {
+  v.sides.count = end_of(lists.sides) - v.sides.first;
+  v.light_cap.count = end_of(lists.light_cap) - v.light_cap.first;
+  v.light_cap_turned.count = end_of(lists.light_cap_turned) - v.light_cap_turned.first;
+  v.dark_cap.count = end_of(lists.dark_cap) - v.dark_cap.first;
+  lists.volumes.push_back(v);
+}
+
+}  // namespace
+
+EdgesOfParts edges_of_parts(const EdgeTable& edges, const std::vector<std::uint32_t>& part_of,
+                            std::size_t parts) {
+  EdgesOfParts out;
+  out.first.assign(parts + 1, 0);
+  out.edge.resize(edges.vertices.size());
+  const auto part = [&](std::size_t k) { return part_of[edges.incidence[edges.first[k]] >> 1]; };
+  for (std::size_t k = 0; k < edges.vertices.size(); ++k) ++out.first[part(k) + 1];
+  for (std::size_t p = 0; p < parts; ++p) out.first[p + 1] += out.first[p];
+  std::vector<std::uint32_t> next(out.first.begin(), out.first.end() - 1);
+  for (std::size_t k = 0; k < edges.vertices.size(); ++k)
+    out.edge[next[part(k)]++] = static_cast<std::uint32_t>(k);
+  return out;
+}
+
+void append_volume(VolumeLists& lists, const TriMesh& mesh, const EdgeTable& table,
+                   std::span<const std::uint32_t> edges, std::span<const std::uint32_t> triangles,
+                   std::span<const std::uint32_t> group_of, std::uint32_t group,
+                   std::span<const std::int8_t> sides, bool directional, Casting casting,
+                   std::uint32_t caster) {
+  const bool all = casting == Casting::all_triangles;
+  Volume volume = begin_volume(lists, caster);
+  for (const std::uint32_t k : edges) {
+    std::int32_t multiplicity = 0;
+    for (std::uint32_t i = table.first[k]; i < table.first[k + 1]; ++i) {
+      const std::uint32_t t = table.incidence[i] >> 1;
+      const bool backward = (table.incidence[i] & 1u) != 0;
+      if (group_of[t] != group || (!all && sides[t] > 0)) continue;
+      multiplicity += backward ? -sides[t] : sides[t];
+    }
+    if (multiplicity == 0) continue;
+    // The weight of the side over (a, b, b at infinity, a at infinity) is minus the multiplicity,
+    // and a polygon of weight -1 counts +1 where it is seen counterclockwise (shadow_volume.h).
+    const auto [a, b] = table.vertices[k];
+    for (int i = 0; i < std::abs(multiplicity); ++i) {
+      push_side(lists.sides, multiplicity > 0 ? a : b, multiplicity > 0 ? b : a, directional);
+    }
+  }
+  for (const std::uint32_t t : triangles) {
+    if (all || sides[t] < 0) push_caps(lists, mesh.triangles[t], sides[t], directional);
+  }
+  end_volume(lists, volume);
+}
+
+void append_prism(VolumeLists& lists, const TriMesh& mesh, std::uint32_t triangle,
+                  std::int8_t light_side, bool directional, std::uint32_t caster) {
+  Volume volume = begin_volume(lists, caster);
+  const Triangle& t = mesh.triangles[triangle];
+  for (int i = 0; i < 3; ++i) {
+    const std::uint32_t a = t[i], b = t[(i + 1) % 3];
+    push_side(lists.sides, light_side > 0 ? a : b, light_side > 0 ? b : a, directional);
+  }
+  push_caps(lists, t, light_side, directional);
+  end_volume(lists, volume);
+}
+
+}  // namespace gnomon

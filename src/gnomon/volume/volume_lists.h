@@ -1,0 +1,67 @@
+// Shadow volumes as index lists for a renderer: what it draws is vertices that the GPU has already,
+// each twice, and a list that says which of the two.
+// Based on: Everitt and Kilgard 2002, sections 3.2 and 3.4; Accelerated Stencil Shadow Extrusion via
+// Vertex Blending, 2003 (doubled vertices); weights after Kim et al. 2007.
+//
+// Index 2v is vertex v of the mesh, (x, y, z, 1); index 2v + 1 is the point at infinity behind it as
+// seen from the light, (x, y, z, 1) Lw - L, w = 0 (for a directional light one point for all).
+//
+// Faces: all triangles of `sides` and `dark_cap` and those of `light_cap` are counterclockwise as
+// seen from where a ray enters the volume: a front face counts +1. The triangles of
+// `light_cap_turned` are the other way round: there a back face counts +1. Caps keep the order of
+// the mesh's corners, so that their depths are the bits of the drawn surface's.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <gnomon/mesh/edge_table.h>
+#include <gnomon/mesh/tri_mesh.h>
+
+namespace gnomon {
+
+// Which triangles of a caster cast. Where all do, each counts 1: right for any soup, and every side
+// of a closed surface is drawn twice. Where the surface is closed, its winding consistent, and
+// neither light nor eye inside, those whose counterclockwise side the light sees (light side -1)
+// suffice: a ray to the light crosses as many of them as of the others (docs/renderer.md).
+enum class Casting : std::uint8_t { all_triangles, lit_triangles };
+
+// Where a list begins and how many indices it has.
+struct IndexRange {
+  std::uint32_t first = 0, count = 0;
+};
+
+// One closed shadow volume: ranges in the lists of VolumeLists.
+struct Volume {
+  std::uint32_t caster = 0;  // what the caller makes of it: a part, a region, a triangle
+  IndexRange sides, light_cap, light_cap_turned, dark_cap;
+};
+
+struct VolumeLists {
+  std::vector<std::uint32_t> sides, light_cap, light_cap_turned, dark_cap;  // triangles
+  std::vector<Volume> volumes;
+};
+
+// Edges by the part of a mesh that they belong to, made once: CSR over the edges of an EdgeTable.
+struct EdgesOfParts {
+  std::vector<std::uint32_t> first, edge;
+};
+EdgesOfParts edges_of_parts(const EdgeTable& edges, const std::vector<std::uint32_t>& part_of,
+                            std::size_t parts);
+
+// Appends the volume of the given triangles to `lists`. `edges`: at least all edges of these
+// triangles. `group_of`: per triangle of the mesh; triangles of other groups than `group` that share
+// an edge do not count. `sides`: light_sides() of the mesh. With Casting::lit_triangles those of
+// light side +1 are left out.
+void append_volume(VolumeLists& lists, const TriMesh& mesh, const EdgeTable& table,
+                   std::span<const std::uint32_t> edges, std::span<const std::uint32_t> triangles,
+                   std::span<const std::uint32_t> group_of, std::uint32_t group,
+                   std::span<const std::int8_t> sides, bool directional, Casting casting,
+                   std::uint32_t caster);
+
+// Appends the volume of one triangle: its prism, which is convex.
+void append_prism(VolumeLists& lists, const TriMesh& mesh, std::uint32_t triangle,
+                  std::int8_t light_side, bool directional, std::uint32_t caster);
+
+}  // namespace gnomon
