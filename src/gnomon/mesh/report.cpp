@@ -1,24 +1,9 @@
 #include <gnomon/mesh/report.h>
 
-#include <numeric>
+#include <gnomon/mesh/triangle_sets.h>
 
 namespace gnomon {
 namespace {
-
-// Union-find over triangles: every root is the lowest index of its set.
-struct Sets {
-  std::vector<std::uint32_t> parent;
-  explicit Sets(std::size_t n) : parent(n) { std::iota(parent.begin(), parent.end(), 0u); }
-  std::uint32_t root(std::uint32_t t) {
-    while (parent[t] != t) t = parent[t] = parent[parent[t]];
-    return t;
-  }
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = root(a), b = root(b);
-    if (a < b) parent[b] = a;
-    if (b < a) parent[a] = b;
-  }
-};
 
 // Six times the volume of the tetrahedron of a triangle and `from`.
 double volume6(const TriMesh& mesh, const Triangle& t, const Vec3& from) {
@@ -53,7 +38,7 @@ constexpr SurfaceKind kKinds[] = {SurfaceKind::solid, SurfaceKind::inside_out,
 MeshReport report_mesh(const TriMesh& mesh, const EdgeTable& edges) {
   MeshReport report;
   const std::size_t n = mesh.triangles.size();
-  Sets sets(n);
+  TriangleSets sets(n);
   for (std::size_t k = 0; k < edges.vertices.size(); ++k) {
     for (std::uint32_t i = edges.first[k] + 1; i < edges.first[k + 1]; ++i) {
       sets.join(edges.incidence[i - 1] >> 1, edges.incidence[i] >> 1);
