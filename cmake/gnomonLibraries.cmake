@@ -1,7 +1,7 @@
 # The libraries that each component stands on, found in the same way when Gnomon is built and when an installed Gnomon is used
 # (this file is installed beside gnomonConfig.cmake).
 #
-#   gnomon_find_libraries(core|io|trace)   sets gnomon_missing: what was not found and the Debian package that brings it; empty if all is there
+#   gnomon_find_libraries(core|io|trace|gl)   sets gnomon_missing: what was not found and the Debian package that brings it; empty if all is there
 #
 # GNOMON_WITH_TBB: the rooms were built with oneTBB, which is optional.
 
@@ -33,6 +33,9 @@ macro(gnomon_find_libraries component)
     endif()
   elseif("${component}" STREQUAL trace)
     gnomon_need(libembree-dev embree 3)
+  elseif("${component}" STREQUAL gl)
+    gnomon_need(pkg-config PkgConfig)
+    gnomon_need_module(libepoxy-dev GNOMON_EPOXY epoxy)
   elseif("${component}" STREQUAL io)
     gnomon_need(libgdal-dev GDAL)
     gnomon_need(libproj-dev PROJ)

@@ -19,7 +19,7 @@ struct Camera {
   glm::dmat4 clip{1.0};  // scene coordinates, homogeneous, to clip space; x right, y up, z away
   Vec4 eye;              // homogeneous; w = 0: direction towards the eye of a parallel view
   std::array<Vec3, 4> near_rectangle{};  // lower left, lower right, upper right, upper left
-  bool infinite = false;  // the far plane is at infinity; otherwise volumes need depth clamp
+  bool infinite = false;      // the far plane is at infinity; otherwise volumes need depth clamp
   int width = 0, height = 0;  // pixels
 };
 
@@ -33,13 +33,13 @@ struct DepthRange {
 // Preconditions: a camera has 0 < near_plane < far_plane; a parallel view has a finite far_plane.
 Camera camera_of(const View& view, const DepthRange& range);
 
-// From an engine's own matrix (row 4 of a perspective one must not be that of a parallel one), scene
-// coordinates to clip space, depth -1..1. Error: the matrix is singular.
+// From an engine's own matrix (row 4 of a perspective one must not be that of a parallel one),
+// scene coordinates to clip space, depth -1..1. Error: the matrix is singular.
 Result<Camera> camera_of(const glm::dmat4& clip, int width, int height);
 
 // The largest near plane and the smallest far plane that cut nothing of the scene's receivers that
-// the view can see, with a margin of kRangeMargin of the distance for rounding to float. `infinite`:
-// leaves the far plane at infinity (not for a parallel view).
+// the view can see, with a margin of kRangeMargin of the distance for rounding to float.
+// `infinite`: leaves the far plane at infinity (not for a parallel view).
 DepthRange depth_range(const Scene& scene, const View& view, bool infinite);
 inline constexpr double kRangeMargin = 1.0 / 64;
 

@@ -67,8 +67,8 @@ Result<HeadlessContext> HeadlessContext::create(Api api) {
                                    EGL_NONE};
   const std::array<EGLint, 5> embedded{EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 0,
                                        EGL_NONE};
-  state->context = eglCreateContext(display, count > 0 ? config : EGL_NO_CONFIG_KHR,
-                                    EGL_NO_CONTEXT, es ? embedded.data() : core.data());
+  state->context = eglCreateContext(display, count > 0 ? config : EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT,
+                                    es ? embedded.data() : core.data());
   if (state->context == EGL_NO_CONTEXT) return Error{"EGL makes no context of " + name + "."};
   if (!epoxy_has_egl_extension(display, "EGL_KHR_surfaceless_context")) {
     const std::array<EGLint, 5> size{EGL_WIDTH, 1, EGL_HEIGHT, 1, EGL_NONE};

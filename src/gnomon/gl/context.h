@@ -10,7 +10,8 @@ namespace gnomon::gl {
 
 enum class Api { opengl, opengl_es };  // OpenGL 3.3 core or later; OpenGL ES 3.0 or later
 
-// Current on the thread that made it, until it is destroyed. It draws into framebuffer objects only.
+// Current on the thread that made it, until it is destroyed. It draws into framebuffer objects
+// only.
 class HeadlessContext {
  public:
   // Errors: no EGL, no such API, no context of that version.

@@ -12,12 +12,18 @@ std::string_view name_of(MaskIn v) {
 }
 std::string_view name_of(Count v) {
   switch (v) {
-    case Count::z_pass: return "zpass";
-    case Count::z_fail: return "zfail";
-    case Count::near_cap: return "near-cap";
-    case Count::zp_plus: return "zp-plus";
-    case Count::automatic: return "auto";
-    case Count::mixed: return "mixed";
+    case Count::z_pass:
+      return "zpass";
+    case Count::z_fail:
+      return "zfail";
+    case Count::near_cap:
+      return "near-cap";
+    case Count::zp_plus:
+      return "zp-plus";
+    case Count::automatic:
+      return "auto";
+    case Count::mixed:
+      return "mixed";
   }
   return "";
 }
@@ -36,10 +42,14 @@ std::string_view name_of(FarPlane v) {
 }
 std::string_view name_of(Extrusion v) {
   switch (v) {
-    case Extrusion::cpu: return "cpu";
-    case Extrusion::shader: return "shader";
-    case Extrusion::blend: return "blend";
-    case Extrusion::blend_large: return "blend-large";
+    case Extrusion::cpu:
+      return "cpu";
+    case Extrusion::shader:
+      return "shader";
+    case Extrusion::blend:
+      return "blend";
+    case Extrusion::blend_large:
+      return "blend-large";
   }
   return "";
 }
@@ -48,10 +58,14 @@ std::string_view name_of(Primitives v) {
 }
 std::string_view name_of(Shadows v) {
   switch (v) {
-    case Shadows::lights: return "lights";
-    case Shadows::black: return "black";
-    case Shadows::ambient: return "ambient";
-    case Shadows::attenuated: return "attenuated";
+    case Shadows::lights:
+      return "lights";
+    case Shadows::black:
+      return "black";
+    case Shadows::ambient:
+      return "ambient";
+    case Shadows::attenuated:
+      return "attenuated";
   }
   return "";
 }
@@ -102,8 +116,7 @@ Result<Method> decide(Method m, const Situation& s, const Capabilities& c) {
   if (m.far_plane == FarPlane::automatic)
     m.far_plane = s.infinite_view ? FarPlane::infinite : FarPlane::clamp;
   if (m.far_plane == FarPlane::infinite && s.parallel_view) {
-    return refuse(
-        "A parallel view has no infinite projection: take --far clamp (depth clamp).");
+    return refuse("A parallel view has no infinite projection: take --far clamp (depth clamp).");
   }
   if (m.far_plane == FarPlane::infinite && !s.infinite_view) {
     return refuse(
@@ -130,8 +143,8 @@ Result<Method> decide(Method m, const Situation& s, const Capabilities& c) {
         "(near clip volume), so its counts would be wrong: take --count auto, zfail, near-cap or "
         "zp-plus.");
   }
-  if (s.light_along_view && (m.count == Count::z_fail || m.count == Count::near_cap ||
-                             m.count == Count::zp_plus)) {
+  if (s.light_along_view &&
+      (m.count == Count::z_fail || m.count == Count::near_cap || m.count == Count::zp_plus)) {
     return refuse(
         "The parallel view looks exactly along the light: all ends of the volumes fall into one "
         "point at infinity. Take --count auto, which counts z-pass there, or turn the view.");
@@ -183,17 +196,20 @@ Result<Method> decide(Method m, const Situation& s, const Capabilities& c) {
   if (stencil && m.passes == StencilPasses::two_sided && m.ops == StencilOps::saturate) {
     return refuse(
         "In one two-sided pass decrements may come before increments, and saturating ones are then "
-        "lost at 0 (Everitt and Kilgard, 4.3): take --stencil-ops wrap or --stencil-passes culled.");
+        "lost at 0 (Everitt and Kilgard, 4.3): take --stencil-ops wrap or --stencil-passes "
+        "culled.");
   }
 
   // What becomes of the mask.
   if (m.arithmetic == Arithmetic::maximum) {
     if (stencil) {
-      return refuse("Maximum blending is arithmetic of alpha and screen masks; the stencil counts.");
+      return refuse(
+          "Maximum blending is arithmetic of alpha and screen masks; the stencil counts.");
     }
     if (m.shadows == Shadows::black || m.shadows == Shadows::ambient) {
       return refuse(
-          "The maximum variant leaves shadows at one half and lit at one, which attenuates (Table 1 "
+          "The maximum variant leaves shadows at one half and lit at one, which attenuates (Table "
+          "1 "
           "of the paper): take --shadows attenuated or lights, or --arithmetic doubling.");
     }
   }

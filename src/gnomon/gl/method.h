@@ -15,11 +15,12 @@ namespace gnomon::gl {
 // Where the shadow mask lives. Roettger, Irion and Ertl 2002, section 4.2.
 enum class MaskIn : std::uint8_t { stencil, alpha, screen };
 
-// How faces of the volumes are counted. z_pass: in front of the sample (Heidmann); z_fail: behind it
-// (Everitt and Kilgard, 2.2.3); near_cap: z-pass, and the volume's cut with the near plane as a front
-// face; zp_plus: z-pass, and the casters between near plane and light counted from the light first;
-// automatic: z-pass for each caster that the near clip volume does not meet ("Geometry of shadows in
-// real time", section 5), z-fail for the others; mixed: the same per connected lit region.
+// How faces of the volumes are counted. z_pass: in front of the sample (Heidmann); z_fail: behind
+// it (Everitt and Kilgard, 2.2.3); near_cap: z-pass, and the volume's cut with the near plane as a
+// front face; zp_plus: z-pass, and the casters between near plane and light counted from the light
+// first; automatic: z-pass for each caster that the near clip volume does not meet ("Geometry of
+// shadows in real time", section 5), z-fail for the others; mixed: the same per connected lit
+// region.
 enum class Count : std::uint8_t { z_pass, z_fail, near_cap, zp_plus, automatic, mixed };
 
 enum class StencilPasses : std::uint8_t { two_sided, culled };  // one pass; two with face culling
@@ -31,8 +32,8 @@ enum class Extrusion : std::uint8_t { cpu, shader, blend, blend_large };
 enum class Primitives : std::uint8_t { quads, strips, fans };
 
 // What a shadow is in the picture. lights: each light adds its part where it is not shadowed; the
-// others are the first paper's for one light: black; ambient: and an ambient term added; attenuated:
-// the lit scene at half its brightness.
+// others are the first paper's for one light: black; ambient: and an ambient term added;
+// attenuated: the lit scene at half its brightness.
 enum class Shadows : std::uint8_t { lights, black, ambient, attenuated };
 
 struct Method {
@@ -46,8 +47,8 @@ struct Method {
   Extrusion extrusion = Extrusion::shader;
   Primitives primitives = Primitives::quads;
   Shadows shadows = Shadows::lights;
-  double mask_scale = 1;  // size of the mask over that of the picture, 0 < scale <= 1
-  int samples = 1;        // a pixel
+  double mask_scale = 1;              // size of the mask over that of the picture, 0 < scale <= 1
+  int samples = 1;                    // a pixel
   bool keep_double_blending = false;  // KEEP instead of INCR where a light is added (stencil): the
                                       // paper's 3.4; only where no two fragments share a depth
 };
@@ -61,7 +62,7 @@ struct Situation {
   bool near_shaded = false;    // some caster may shade the near rectangle (near clip volume)
   bool target_stencil = true;  // the framebuffer can have a stencil attachment
   bool target_alpha = true;
-  bool infinite_view = true;   // the view's far plane can be at infinity
+  bool infinite_view = true;  // the view's far plane can be at infinity
   int lights = 1;
 };
 

@@ -29,14 +29,14 @@ void set(GLuint program, const char* name, const glm::mat3& value);
 void set(GLuint program, const char* name, const glm::mat4& value);
 
 struct Programs {
-  ProgramHandle volume[4];   // by Extrusion
-  ProgramHandle near_light;  // casters as the light sees them on the near plane (ZP+)
-  ProgramHandle flat;        // one colour on surfaces
-  ProgramHandle surface;     // lit surfaces
+  ProgramHandle volume[4];       // by Extrusion
+  ProgramHandle near_light;      // casters as the light sees them on the near plane (ZP+)
+  ProgramHandle flat;            // one colour on surfaces
+  ProgramHandle surface;         // lit surfaces
   ProgramHandle masked_surface;  // the same, times a mask in a texture
-  ProgramHandle rectangle;   // one colour over the viewport, at the near plane
-  ProgramHandle texture;     // a texture over the viewport
-  ProgramHandle plain;       // vertices that are in clip space already, one colour
+  ProgramHandle rectangle;       // one colour over the viewport, at the near plane
+  ProgramHandle texture;         // a texture over the viewport
+  ProgramHandle plain;           // vertices that are in clip space already, one colour
 };
 Result<Programs> compile_programs();
 

@@ -40,8 +40,8 @@ out vec4 o_colour;
 void main() { o_colour = u_colour; }
 )";
 
-// The shadow that a caster's vertex throws on the near plane n . X = 0: X' = (n.L) X - (n.X) L. What
-// lies beyond the plane is discarded; what lies beyond the light has w < 0 and is clipped.
+// The shadow that a caster's vertex throws on the near plane n . X = 0: X' = (n.L) X - (n.X) L.
+// What lies beyond the plane is discarded; what lies beyond the light has w < 0 and is clipped.
 inline constexpr const char* kNearLightVertex = R"(
 in vec4 a_vertex;
 uniform mat4 u_clip;
@@ -94,9 +94,9 @@ void main() {
 }
 )";
 
-// Blinn and Phong, per pixel, in the encoding of the picture. Both sides of a surface are drawn: the
-// normal is turned to the eye. Normal maps take their tangents from the derivatives of position and
-// texture coordinates.
+// Blinn and Phong, per pixel, in the encoding of the picture. Both sides of a surface are drawn:
+// the normal is turned to the eye. Normal maps take their tangents from the derivatives of position
+// and texture coordinates.
 inline constexpr const char* kSurfaceFragment = R"(
 in vec3 v_position;
 in vec3 v_normal;

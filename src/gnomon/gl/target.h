@@ -1,19 +1,11 @@
 // Framebuffers of our own: colour with alpha, depth with or without stencil, multisampled or not.
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
 #include <gnomon/core/result.h>
 #include <gnomon/gl/handles.h>
+#include <gnomon/gl/renderer.h>
 
 namespace gnomon::gl {
-
-// 8-bit RGBA, row-major, row 0 at the top.
-struct Image {
-  int width = 0, height = 0;
-  std::vector<std::uint8_t> rgba;
-};
 
 struct TargetFormat {
   int width = 0, height = 0;

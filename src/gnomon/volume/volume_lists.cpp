@@ -72,14 +72,13 @@ void append_volume(VolumeLists& lists, const TriMesh& mesh, const EdgeTable& tab
                    std::span<const std::uint32_t> group_of, std::uint32_t group,
                    std::span<const std::int8_t> sides, bool directional, Casting casting,
                    std::uint32_t caster) {
-  const bool all = casting == Casting::all_triangles;
   Volume volume = begin_volume(lists, caster);
   for (const std::uint32_t k : edges) {
     std::int32_t multiplicity = 0;
     for (std::uint32_t i = table.first[k]; i < table.first[k + 1]; ++i) {
       const std::uint32_t t = table.incidence[i] >> 1;
       const bool backward = (table.incidence[i] & 1u) != 0;
-      if (group_of[t] != group || (!all && sides[t] > 0)) continue;
+      if (group_of[t] != group || !casts(casting, sides[t])) continue;
       multiplicity += backward ? -sides[t] : sides[t];
     }
     if (multiplicity == 0) continue;
@@ -91,7 +90,7 @@ void append_volume(VolumeLists& lists, const TriMesh& mesh, const EdgeTable& tab
     }
   }
   for (const std::uint32_t t : triangles) {
-    if (all || sides[t] < 0) push_caps(lists, mesh.triangles[t], sides[t], directional);
+    if (casts(casting, sides[t])) push_caps(lists, mesh.triangles[t], sides[t], directional);
   }
   end_volume(lists, volume);
 }

@@ -1,10 +1,10 @@
 // Shadow volumes as index lists for a renderer: what it draws is vertices that the GPU has already,
 // each twice, and a list that says which of the two.
-// Based on: Everitt and Kilgard 2002, sections 3.2 and 3.4; Accelerated Stencil Shadow Extrusion via
-// Vertex Blending, 2003 (doubled vertices); weights after Kim et al. 2007.
+// Based on: Everitt and Kilgard 2002, sections 3.2 and 3.4; Accelerated Stencil Shadow Extrusion
+// via Vertex Blending, 2003 (doubled vertices); weights after Kim et al. 2007.
 //
-// Index 2v is vertex v of the mesh, (x, y, z, 1); index 2v + 1 is the point at infinity behind it as
-// seen from the light, (x, y, z, 1) Lw - L, w = 0 (for a directional light one point for all).
+// Index 2v is vertex v of the mesh, (x, y, z, 1); index 2v + 1 is the point at infinity behind it
+// as seen from the light, (x, y, z, 1) Lw - L, w = 0 (for a directional light one point for all).
 //
 // Faces: all triangles of `sides` and `dark_cap` and those of `light_cap` are counterclockwise as
 // seen from where a ray enters the volume: a front face counts +1. The triangles of
@@ -23,9 +23,15 @@ namespace gnomon {
 
 // Which triangles of a caster cast. Where all do, each counts 1: right for any soup, and every side
 // of a closed surface is drawn twice. Where the surface is closed, its winding consistent, and
-// neither light nor eye inside, those whose counterclockwise side the light sees (light side -1)
-// suffice: a ray to the light crosses as many of them as of the others (docs/renderer.md).
-enum class Casting : std::uint8_t { all_triangles, lit_triangles };
+// neither light nor eye inside, those of one light side suffice: a ray to the light crosses as many
+// of them as of the others (docs/renderer.md). The light sees the counterclockwise side of those of
+// light side -1: of a surface that is wound outwards, they face it.
+enum class Casting : std::uint8_t { all_triangles, negative_sides, positive_sides };
+
+inline bool casts(Casting casting, std::int8_t light_side) {
+  return casting == Casting::all_triangles ||
+         (light_side < 0) == (casting == Casting::negative_sides);
+}
 
 // Where a list begins and how many indices it has.
 struct IndexRange {
@@ -51,9 +57,8 @@ EdgesOfParts edges_of_parts(const EdgeTable& edges, const std::vector<std::uint3
                             std::size_t parts);
 
 // Appends the volume of the given triangles to `lists`. `edges`: at least all edges of these
-// triangles. `group_of`: per triangle of the mesh; triangles of other groups than `group` that share
-// an edge do not count. `sides`: light_sides() of the mesh. With Casting::lit_triangles those of
-// light side +1 are left out.
+// triangles. `group_of`: per triangle of the mesh; triangles of other groups than `group` that
+// share an edge do not count. `sides`: light_sides() of the mesh.
 void append_volume(VolumeLists& lists, const TriMesh& mesh, const EdgeTable& table,
                    std::span<const std::uint32_t> edges, std::span<const std::uint32_t> triangles,
                    std::span<const std::uint32_t> group_of, std::uint32_t group,

@@ -1,0 +1,434 @@
+#include <gnomon/gl/renderer.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <gnomon/gl/renderer_state.h>
+
+namespace gnomon::gl {
+namespace {
+
+Pass colour_pass(GLenum depth_func) {
+  Pass p;
+  p.depth_func = depth_func;
+  p.colour = {true, true, true, false};
+  return p;
+}
+
+// The first pass: depths, and colour unless it is for depth alone.
+Pass first_pass(bool colour) {
+  Pass p;
+  p.depth_write = true;
+  if (colour) p.colour = {true, true, true, false};
+  return p;
+}
+
+void clear(const Frame& frame, const Target& target, const Vec3& background) {
+  glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer.id());
+  glViewport(0, 0, target.format.width, target.format.height);
+  Pass p;
+  p.depth_write = true;
+  p.colour = {true, true, true, true};
+  apply(p, frame.state->support);
+  glClearColor(static_cast<float>(background.x), static_cast<float>(background.y),
+               static_cast<float>(background.z), 0.0f);
+  glClearDepthf(1.0f);
+  glClearStencil(0);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT |
+          (target.format.stencil ? GL_STENCIL_BUFFER_BIT : 0));
+}
+
+// A colour wherever nothing was drawn: a rectangle in the far plane.
+void draw_background(const Frame& frame, const Vec3& colour) {
+  Pass p = colour_pass(GL_EQUAL);
+  p.depth_clamp = false;
+  draw_rectangle(frame, p, glm::vec4(glm::vec3(colour), 1.0f), 1.0f);
+  ++frame.stats->other_rectangles;
+}
+
+TargetFormat format_of(const Camera& camera, const Method& m, double scale) {
+  TargetFormat f;
+  f.width = std::max(1, static_cast<int>(std::ceil(camera.width * scale)));
+  f.height = std::max(1, static_cast<int>(std::ceil(camera.height * scale)));
+  f.samples = m.samples;
+  f.stencil = m.mask == MaskIn::stencil;
+  return f;
+}
+
+// The mask from where its method keeps it to all colours of the bound framebuffer: 1 where lit, and
+// `shadow` where not.
+void mask_to_colour(const Frame& frame, const Method& m, float shadow) {
+  Pass p;
+  p.depth_test = false;
+  p.colour = {true, true, true, false};
+  if (m.mask == MaskIn::stencil) {
+    draw_rectangle(frame, p, glm::vec4(1));
+    p.stencil_test = true;
+    p.stencil_func = GL_NOTEQUAL;
+    draw_rectangle(frame, p, glm::vec4(shadow));
+    frame.stats->other_rectangles += 2;
+  } else if (m.mask == MaskIn::alpha) {
+    p.blend = true;
+    p.source = GL_DST_ALPHA;
+    p.destination = GL_ZERO;
+    draw_rectangle(frame, p, glm::vec4(1));
+    ++frame.stats->other_rectangles;
+  }
+}
+
+glm::vec4 channel_of(const Method& m) {
+  return m.mask == MaskIn::alpha ? glm::vec4(0, 0, 0, 1) : glm::vec4(1, 0, 0, 0);
+}
+
+// A mask at a lower resolution, in a texture (Roettger et al., 4.5).
+Result<Target> low_mask(const Frame& frame, const LightPlan& plan) {
+  Result<Target> made = make_target(format_of(*frame.camera, plan.method, plan.method.mask_scale));
+  if (!made) return made.error();
+  Target target = std::move(made).value();
+  clear(frame, target, Vec3(0));
+  draw_depth(frame, first_pass(false));
+  draw_light_mask(frame, plan);
+  if (plan.method.mask == MaskIn::stencil)
+    mask_to_colour(frame, plan.method, plan.method.shadows == Shadows::attenuated ? 0.5f : 0.0f);
+  return target;
+}
+
+void bind(const Target& target) {
+  glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer.id());
+  glViewport(0, 0, target.format.width, target.format.height);
+}
+
+// Each light adds its part where it is not shadowed (Everitt and Kilgard, 3.3).
+Result<bool> add_lights(const Frame& frame, const Target& picture,
+                        std::span<const LightSource> lights, std::span<const LightPlan> plans) {
+  std::optional<Target> screen;
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    const LightPlan& plan = plans[i];
+    const Method& m = plan.method;
+    Lighting lighting;
+    lighting.light = &lights[i];
+    Pass add = colour_pass(GL_EQUAL);
+    add.blend = true;
+    add.source = add.destination = GL_ONE;
+    if (m.mask_scale < 1) {
+      Result<Target> mask = low_mask(frame, plan);
+      if (!mask) return mask.error();
+      bind(picture);
+      lighting.mask = &mask.value();
+      lighting.mask_channel = channel_of(m);
+      draw_lit(frame, add, lighting);
+    } else if (m.mask == MaskIn::stencil) {
+      draw_light_mask(frame, plan);
+      add.stencil_test = true;
+      add.stencil_func = GL_EQUAL;
+      add.front.depth_pass = add.back.depth_pass = m.keep_double_blending ? GL_KEEP : GL_INCR;
+      draw_lit(frame, add, lighting);
+    } else if (m.mask == MaskIn::alpha) {
+      draw_light_mask(frame, plan);
+      add.source = GL_DST_ALPHA;
+      draw_lit(frame, add, lighting);
+    } else {
+      // The mask overwrites what earlier lights drew: it has a target of its own, with the same
+      // depths, which is added when it holds mask times light.
+      if (!screen) {
+        TargetFormat format = picture.format;
+        Result<Target> made = make_target(format, &picture);
+        if (!made) return made.error();
+        screen = std::move(made).value();
+      }
+      bind(*screen);
+      draw_light_mask(frame, plan);
+      draw_background(frame, Vec3(0));
+      Pass multiply = colour_pass(GL_EQUAL);
+      multiply.blend = true;
+      multiply.source = GL_DST_COLOR;
+      multiply.destination = GL_ZERO;
+      draw_lit(frame, multiply, lighting);
+      bind(picture);
+      Pass sum;
+      sum.depth_test = false;
+      sum.blend = true;
+      sum.source = sum.destination = GL_ONE;
+      sum.colour = {true, true, true, false};
+      draw_texture(frame, sum, *screen, std::nullopt);
+      ++frame.stats->other_rectangles;
+    }
+  }
+  return true;
+}
+
+// One light, as the first paper's Table 1 counts passes and rectangles.
+Result<bool> draw_paper(const Frame& frame, const Target& picture, const LightSource& light,
+                        const LightPlan& plan, const FrameOptions& options) {
+  const Method& m = plan.method;
+  const bool attenuated = m.shadows == Shadows::attenuated;
+  Lighting lighting;
+  lighting.light = &light;
+  if (attenuated) {
+    lighting.ambient = options.ambient;
+    lighting.emission = true;
+  }
+  Pass apply_mask;
+  apply_mask.depth_test = false;
+  apply_mask.colour = {true, true, true, false};
+  apply_mask.blend = true;
+  if (m.mask_scale < 1) {
+    Result<Target> mask = low_mask(frame, plan);
+    if (!mask) return mask.error();
+    bind(picture);
+    draw_lit(frame, first_pass(true), lighting);
+    apply_mask.source = GL_DST_COLOR;
+    apply_mask.destination = GL_ZERO;
+    draw_texture(frame, apply_mask, mask.value(), channel_of(m));
+    ++frame.stats->rectangles;
+    draw_background(frame, options.background);
+  } else if (m.mask == MaskIn::screen) {
+    draw_depth(frame, first_pass(false));
+    draw_light_mask(frame, plan);
+    draw_background(frame, options.background);
+    Pass multiply = colour_pass(GL_EQUAL);
+    multiply.blend = true;
+    multiply.source = GL_DST_COLOR;
+    multiply.destination = GL_ZERO;
+    draw_lit(frame, multiply, lighting);
+  } else {
+    draw_lit(frame, first_pass(true), lighting);
+    draw_light_mask(frame, plan);
+    if (m.mask == MaskIn::alpha) {
+      apply_mask.source = GL_ZERO;
+      apply_mask.destination = GL_DST_ALPHA;
+      draw_rectangle(frame, apply_mask, glm::vec4(1));
+    } else {
+      apply_mask.source = GL_DST_COLOR;
+      apply_mask.destination = GL_ZERO;
+      apply_mask.stencil_test = true;
+      apply_mask.stencil_func = GL_NOTEQUAL;
+      draw_rectangle(frame, apply_mask, glm::vec4(attenuated ? 0.5f : 0.0f));
+    }
+    ++frame.stats->rectangles;
+    draw_background(frame, options.background);
+  }
+  if (m.shadows == Shadows::ambient) {
+    Pass add = colour_pass(GL_EQUAL);
+    add.blend = true;
+    add.source = add.destination = GL_ONE;
+    Lighting ambient;
+    ambient.ambient = options.ambient;
+    ambient.emission = true;
+    draw_lit(frame, add, ambient);
+  }
+  return true;
+}
+
+}  // namespace
+
+Renderer::Renderer(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+Renderer::~Renderer() = default;
+
+Result<Renderer> Renderer::create(const Capabilities& capabilities) {
+  auto state = std::make_unique<State>();
+  state->capabilities = capabilities;
+  state->support = {capabilities.depth_clamp, capabilities.depth_bounds};
+  const StateGuard guard(state->support);
+  Result<Programs> programs = compile_programs();
+  if (!programs) return programs.error();
+  state->programs = std::move(programs).value();
+  state->empty = VertexArray::make();
+  return Renderer(std::move(state));
+}
+
+MeshId Renderer::add_mesh(const TriMesh& mesh, std::vector<std::uint8_t> casts,
+                          std::vector<std::uint8_t> receives) {
+  const StateGuard guard(state_->support);
+  state_->meshes.push_back({make_gpu_mesh(mesh, std::move(casts), std::move(receives)), 1});
+  return static_cast<MeshId>(state_->meshes.size() - 1);
+}
+
+void Renderer::update_mesh(MeshId mesh, std::span<const Vec3> positions) {
+  const StateGuard guard(state_->support);
+  move_vertices(state_->meshes[mesh].gpu, positions);
+  ++state_->meshes[mesh].version;
+}
+
+void Renderer::update_mesh_from_buffer(MeshId mesh, unsigned buffer, std::size_t offset,
+                                       std::size_t stride) {
+  const StateGuard guard(state_->support);
+  std::vector<Vec3> positions(state_->meshes[mesh].gpu.mesh.positions.size());
+  const std::size_t bytes = positions.empty() ? 0 : (positions.size() - 1) * stride + 12;
+  glBindBuffer(GL_ARRAY_BUFFER, buffer);
+  const auto* data = static_cast<const unsigned char*>(
+      glMapBufferRange(GL_ARRAY_BUFFER, static_cast<GLintptr>(offset),
+                       static_cast<GLsizeiptr>(bytes), GL_MAP_READ_BIT));
+  if (data == nullptr) return;
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    float xyz[3];
+    std::copy_n(data + i * stride, sizeof(xyz), reinterpret_cast<unsigned char*>(xyz));
+    positions[i] = Vec3(xyz[0], xyz[1], xyz[2]);
+  }
+  glUnmapBuffer(GL_ARRAY_BUFFER);
+  move_vertices(state_->meshes[mesh].gpu, positions);
+  ++state_->meshes[mesh].version;
+}
+
+InstanceId Renderer::add_instance(MeshId mesh, const glm::dmat4& to_scene) {
+  InstanceSlot slot;
+  slot.mesh = mesh;
+  slot.to_scene = to_scene;
+  slot.alive = true;
+  state_->instances.push_back(std::move(slot));
+  return static_cast<InstanceId>(state_->instances.size() - 1);
+}
+
+void Renderer::move_instance(InstanceId instance, const glm::dmat4& to_scene) {
+  state_->instances[instance].to_scene = to_scene;
+}
+
+void Renderer::remove_instance(InstanceId instance) {
+  state_->instances[instance].alive = false;
+  state_->instances[instance].volumes.clear();
+}
+
+InstanceId Renderer::add_scene(const Scene& scene) {
+  std::vector<std::uint8_t> cast(scene.mesh.triangles.size()), receive(cast.size());
+  for (std::uint32_t t = 0; t < cast.size(); ++t) {
+    cast[t] = casts(scene, t) ? 1 : 0;
+    receive[t] = receives(scene, t) ? 1 : 0;
+  }
+  return add_instance(add_mesh(scene.mesh, std::move(cast), std::move(receive)));
+}
+
+Result<Image> Renderer::render(const Camera& camera, std::span<const LightSource> lights,
+                               const FrameOptions& options, FrameStats* stats) {
+  FrameStats own;
+  FrameStats& counted = stats != nullptr ? *stats : own;
+  counted = {};
+  const StateGuard guard(state_->support);
+  const Frame frame{state_.get(), &camera, &counted};
+  Method wanted = options.method;
+  const TargetFacts facts{true, true, static_cast<int>(lights.size())};
+  std::vector<LightPlan> plans;
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    Result<LightPlan> plan =
+        plan_light(frame, lights[i].light, static_cast<std::uint32_t>(i), wanted, facts);
+    if (!plan) return plan.error();
+    plans.push_back(std::move(plan).value());
+  }
+  if (!plans.empty()) counted.method = plans.front().method;
+  Result<Target> made = make_target(format_of(camera, wanted, 1.0));
+  if (!made) return made.error();
+  const Target& picture = made.value();
+  clear(frame, picture, options.background);
+  Result<bool> drawn = true;
+  if (wanted.shadows == Shadows::lights || lights.empty()) {
+    Lighting ambient;
+    ambient.ambient = options.ambient;
+    ambient.emission = true;
+    draw_lit(frame, first_pass(true), ambient);
+    drawn = add_lights(frame, picture, lights, plans);
+  } else {
+    drawn = draw_paper(frame, picture, lights.front(), plans.front(), options);
+  }
+  if (!drawn) return drawn.error();
+  if (options.show == Show::volumes) {
+    bind(picture);
+    Pass p = colour_pass(GL_LESS);
+    p.blend = true;
+    p.source = GL_SRC_ALPHA;
+    p.destination = GL_ONE_MINUS_SRC_ALPHA;
+    for (const LightPlan& plan : plans)
+      draw_volume_faces(frame, plan, p, glm::vec4(1.0f, 0.85f, 0.1f, 0.12f));
+  }
+  return read_colours(picture);
+}
+
+Result<ShadowMask> Renderer::mask(const Camera& camera, const Light& light, const Method& method,
+                                  FrameStats* stats) {
+  FrameStats own;
+  FrameStats& counted = stats != nullptr ? *stats : own;
+  counted = {};
+  const StateGuard guard(state_->support);
+  const Frame frame{state_.get(), &camera, &counted};
+  Result<LightPlan> planned = plan_light(frame, light, 0, method, {});
+  if (!planned) return planned.error();
+  const LightPlan& plan = planned.value();
+  const Method& m = counted.method = plan.method;
+  Result<Target> made = make_target(format_of(camera, m, 1.0));
+  if (!made) return made.error();
+  const Target& picture = made.value();
+  clear(frame, picture, Vec3(0));
+  draw_depth(frame, first_pass(false));
+  if (m.mask_scale < 1) {
+    Result<Target> low = low_mask(frame, plan);
+    if (!low) return low.error();
+    bind(picture);
+    Pass copy;
+    copy.depth_test = false;
+    copy.colour = {true, true, true, false};
+    draw_texture(frame, copy, low.value(), channel_of(m));
+    ++counted.other_rectangles;
+  } else {
+    draw_light_mask(frame, plan);
+    mask_to_colour(frame, m, m.shadows == Shadows::attenuated ? 0.5f : 0.0f);
+  }
+  // Alpha: where there is a sample.
+  Pass alpha;
+  alpha.depth_test = false;
+  alpha.colour = {false, false, false, true};
+  draw_rectangle(frame, alpha, glm::vec4(0));
+  ++counted.other_rectangles;
+  alpha.depth_test = true;
+  alpha.depth_func = GL_EQUAL;
+  draw_flat(frame, alpha, glm::vec4(1));
+  const Image image = read_colours(picture);
+  ShadowMask out;
+  out.width = image.width;
+  out.height = image.height;
+  out.state.resize(std::size_t(image.width) * image.height);
+  // Halfway between shadow (0; attenuated 128) and lit (254 or 255).
+  const int threshold = m.shadows == Shadows::attenuated ? 192 : 128;
+  for (std::size_t i = 0; i < out.state.size(); ++i) {
+    const std::uint8_t value = image.rgba[4 * i], there = image.rgba[4 * i + 3];
+    out.state[i] = there < 128          ? ShadowMask::kNoSample
+                   : value >= threshold ? ShadowMask::kLit
+                                        : ShadowMask::kShadow;
+  }
+  return out;
+}
+
+Result<FrameStats> Renderer::draw_mask(const Camera& camera, const Light& light,
+                                       const Method& method) {
+  if (method.mask == MaskIn::screen || method.mask_scale != 1) {
+    return Error{
+        "A mask in the screen buffer or of lower resolution needs a framebuffer of its own: take "
+        "the stencil or the alpha channel inside another renderer's framebuffer."};
+  }
+  FrameStats counted;
+  const Frame frame{state_.get(), &camera, &counted};
+  GLint stencil_bits = 0, alpha_bits = 0;
+  GLint bound = 0;
+  glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &bound);
+  glGetFramebufferAttachmentParameteriv(GL_DRAW_FRAMEBUFFER,
+                                        bound == 0 ? GL_STENCIL : GL_STENCIL_ATTACHMENT,
+                                        GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE, &stencil_bits);
+  glGetFramebufferAttachmentParameteriv(GL_DRAW_FRAMEBUFFER,
+                                        bound == 0 ? GL_BACK_LEFT : GL_COLOR_ATTACHMENT0,
+                                        GL_FRAMEBUFFER_ATTACHMENT_ALPHA_SIZE, &alpha_bits);
+  Result<LightPlan> plan =
+      plan_light(frame, light, 0, method, {stencil_bits != GL_NONE, alpha_bits > 0, 1});
+  if (!plan) return plan.error();
+  counted.method = plan.value().method;
+  const StateGuard guard(state_->support);
+  draw_light_mask(frame, plan.value());
+  return counted;
+}
+
+glm::mat4 Renderer::clip_of(InstanceId instance, const Camera& camera) const {
+  return glm::mat4(camera.clip * state_->instances[instance].to_scene);
+}
+
+const Capabilities& Renderer::capabilities() const { return state_->capabilities; }
+
+}  // namespace gnomon::gl

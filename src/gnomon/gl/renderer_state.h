@@ -1,0 +1,104 @@
+// What a Renderer owns, and how its files draw with it. Internal to this room.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <glm/mat4x4.hpp>
+
+#include <gnomon/gl/caster_volumes.h>
+#include <gnomon/gl/gpu_mesh.h>
+#include <gnomon/gl/pass.h>
+#include <gnomon/gl/program.h>
+#include <gnomon/gl/renderer.h>
+#include <gnomon/gl/target.h>
+
+namespace gnomon::gl {
+
+struct MeshSlot {
+  GpuMesh gpu;
+  std::uint64_t version = 0;  // of its positions
+};
+
+struct InstanceSlot {
+  MeshId mesh = 0;
+  glm::dmat4 to_scene{1.0};
+  bool alive = false;
+  std::vector<CasterVolumes> volumes;  // per light of the frame, by its number
+};
+
+struct Renderer::State {
+  Capabilities capabilities;
+  PassSupport support;
+  Programs programs;
+  VertexArray empty;  // rectangles have no attributes
+  std::vector<MeshSlot> meshes;
+  std::vector<InstanceSlot> instances;
+  Buffer near_caps;  // vertices in clip space
+  VertexArray near_cap_array;
+  Query query;
+};
+
+// One frame: what every step needs to know.
+struct Frame {
+  Renderer::State* state = nullptr;
+  const Camera* camera = nullptr;
+  FrameStats* stats = nullptr;
+
+  glm::mat4 clip_of(const InstanceSlot& instance) const {
+    return glm::mat4(camera->clip * instance.to_scene);
+  }
+};
+
+// One light of a frame.
+struct LightPlan {
+  Light light{0, 0, 1, 0};
+  std::uint32_t number = 0;  // which of the frame's lights
+  Method method;             // decided
+  struct OfInstance {
+    Light light;  // in the mesh's coordinates
+    std::vector<PartPlan> parts;
+    bool caps_in_front = false;  // z-pass must count caps too: some caster is not drawn
+  };
+  std::vector<OfInstance> instances;  // by InstanceId; empty parts where not alive
+};
+
+// What decides the method, and the plan of every part. Error: decide()'s. `target_*`: of the
+// framebuffer that is drawn to.
+struct TargetFacts {
+  bool stencil = true, alpha = true;
+  int lights = 1;
+};
+Result<LightPlan> plan_light(const Frame& frame, const Light& light, std::uint32_t number,
+                             const Method& wanted, const TargetFacts& target);
+
+// Draws surfaces.
+void draw_depth(const Frame& frame, const Pass& pass);  // no colour
+void draw_flat(const Frame& frame, const Pass& pass, const glm::vec4& colour);
+struct Lighting {
+  const LightSource* light = nullptr;  // none: ambient and emission only
+  Vec3 ambient{0, 0, 0};
+  bool emission = false;
+  const Target* mask = nullptr;  // multiplied in, bilinearly
+  glm::vec4 mask_channel{1, 0, 0, 0};
+};
+void draw_lit(const Frame& frame, const Pass& pass, const Lighting& lighting);
+
+// Rectangles over the viewport. `depth`: -1 the near plane, 1 the far plane.
+void draw_rectangle(const Frame& frame, const Pass& pass, const glm::vec4& colour,
+                    float depth = -1);
+void draw_texture(const Frame& frame, const Pass& pass, const Target& from,
+                  const std::optional<glm::vec4>& channel);
+
+// The mask of one light into the bound framebuffer, whose depth is there. Its place is cleared
+// first. Stencil: not 0 in shadow. Alpha and screen: normalised to 0 in shadow, 1 where lit
+// (254/255); attenuated: to 1/2 and 1.
+void draw_light_mask(const Frame& frame, const LightPlan& plan);
+
+// The volumes alone, by the pass and colour given: to be looked at.
+void draw_volume_faces(const Frame& frame, const LightPlan& plan, const Pass& pass,
+                       const glm::vec4& colour);
+
+}  // namespace gnomon::gl
