@@ -113,6 +113,9 @@ int main(int argc, char** argv) {
   gnomon::app::add_convert(app);
   gnomon::app::add_inspect(app);
   gnomon::app::add_sun(app);
+#ifdef GNOMON_HAVE_GL
+  gnomon::app::add_render(app);
+#endif
 #ifdef GNOMON_HAVE_TRACE
   gnomon::app::add_verify(app);
 #endif

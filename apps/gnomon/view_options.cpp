@@ -112,6 +112,26 @@ void check_positive(double value, const char* option) {
 
 }  // namespace
 
+void add_camera_options(CLI::App& command, ViewOptions& o) {
+  const char* group = "View";
+  command.add_option("--eye", o.eye, "Camera: X,Y,Z in the model's coordinates (default: chosen)")
+      ->group(group);
+  command
+      .add_option("--target", o.target,
+                  "Camera: X,Y,Z that it looks at (default: the model's middle)")
+      ->group(group);
+  command.add_option("--fov", o.fov_deg, "Camera: vertical field of view in degrees")
+      ->check(CLI::Range(1.0, 170.0))
+      ->capture_default_str()
+      ->group(group);
+  command.add_option("--ortho", o.ortho_height, "Camera: parallel view, METRES high at the target")
+      ->check(positive_number())
+      ->group(group);
+  command.add_option("--size", o.size, "Camera: WIDTHxHEIGHT in pixels")
+      ->capture_default_str()
+      ->group(group);
+}
+
 void add_view_options(CLI::App& command, ViewOptions& o) {
   const char* group = "View";
   command.add_option("--view", o.kind, "plan (default) or camera")
@@ -130,22 +150,7 @@ void add_view_options(CLI::App& command, ViewOptions& o) {
           "Plan: x0,y0,x1,y1 in the model's coordinates (default: the model and, of few buildings, "
           "the shadows of a sun at least 10 degrees high)")
       ->group(group);
-  command.add_option("--eye", o.eye, "Camera: X,Y,Z in the model's coordinates (default: chosen)")
-      ->group(group);
-  command
-      .add_option("--target", o.target,
-                  "Camera: X,Y,Z that it looks at (default: the model's middle)")
-      ->group(group);
-  command.add_option("--fov", o.fov_deg, "Camera: vertical field of view in degrees")
-      ->check(CLI::Range(1.0, 170.0))
-      ->capture_default_str()
-      ->group(group);
-  command.add_option("--ortho", o.ortho_height, "Camera: parallel view, METRES high at the target")
-      ->check(positive_number())
-      ->group(group);
-  command.add_option("--size", o.size, "Camera: WIDTHxHEIGHT in pixels")
-      ->capture_default_str()
-      ->group(group);
+  add_camera_options(command, o);
 }
 
 // Where the model brings its own terrain, or no ground is wanted, nothing lies beyond it.

@@ -23,6 +23,7 @@ struct ViewOptions {
 };
 
 void add_view_options(CLI::App& command, ViewOptions& options);
+void add_camera_options(CLI::App& command, ViewOptions& options);  // of these, the camera's
 
 // The model's box in scene coordinates, without the ground.
 struct Box {

@@ -21,19 +21,6 @@ void append_part(VolumeLists& lists, const GpuMesh& m, std::uint32_t p, const Pa
                 directional, plan.casting, p);
 }
 
-const std::vector<std::uint32_t>& list_of(const VolumeLists& lists, int kind) {
-  switch (kind) {
-    case kSides:
-      return lists.sides;
-    case kLightCap:
-      return lists.light_cap;
-    case kLightCapTurned:
-      return lists.light_cap_turned;
-    default:
-      return lists.dark_cap;
-  }
-}
-
 // The doubled vertices, extruded on the CPU by the same float operations as in the shader.
 std::vector<glm::vec4> extrude(const TriMesh& mesh, const Light& light) {
   const glm::vec4 l(light);
@@ -65,7 +52,7 @@ bool update_volumes(CasterVolumes& v, const GpuMesh& m, std::uint64_t mesh_versi
   const bool directional = light.w == 0;
   v.lists = {};
   v.polygon.clear();
-  std::uint32_t ends[kListKinds] = {};
+  std::array<std::uint32_t, kListKinds> ends{};
   for (const bool z_fail : {true, false}) {
     for (std::uint32_t p = 0; p < plan.size(); ++p) {
       if (plan[p].z_fail != z_fail) continue;
@@ -75,11 +62,11 @@ bool update_volumes(CasterVolumes& v, const GpuMesh& m, std::uint64_t mesh_versi
     if (!z_fail) continue;
     v.z_fail_volumes = v.lists.volumes.size();
     for (int k = 0; k < kListKinds; ++k)
-      ends[k] = static_cast<std::uint32_t>(list_of(v.lists, k).size());
+      ends[k] = static_cast<std::uint32_t>(v.lists.lists[k].size());
   }
   std::vector<std::uint32_t> indices;
   for (int k = 0; k < kListKinds; ++k) {
-    const std::vector<std::uint32_t>& list = list_of(v.lists, k);
+    const std::vector<std::uint32_t>& list = v.lists.lists[k];
     v.list_begin[k] = static_cast<std::uint32_t>(indices.size());
     v.z_fail[k] = {v.list_begin[k], ends[k]};
     v.z_pass[k] = {v.list_begin[k] + ends[k], static_cast<std::uint32_t>(list.size()) - ends[k]};

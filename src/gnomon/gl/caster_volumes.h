@@ -3,6 +3,7 @@
 // Kilgard 2002, section 3.4).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -23,8 +24,6 @@ struct PartPlan {
   bool operator==(const PartPlan&) const = default;
 };
 
-enum ListKind : std::uint8_t { kSides, kLightCap, kLightCapTurned, kDarkCap, kListKinds };
-
 struct CasterVolumes {
   // What they were made from.
   Light light{0, 0, 0, 0};  // in the mesh's coordinates
@@ -33,11 +32,12 @@ struct CasterVolumes {
   Primitives primitives = Primitives::quads;
   std::uint64_t mesh_version = 0;
 
-  VolumeLists lists;                                  // z-fail volumes first
-  std::size_t z_fail_volumes = 0;                     // of lists.volumes, the first ones
-  IndexRange z_fail[kListKinds], z_pass[kListKinds];  // in `indices`: the lists one after the other
-  std::uint32_t list_begin[kListKinds] = {};          // where each list begins in `indices`
-  std::vector<std::uint8_t> polygon;                  // per volume: of a single polygon
+  VolumeLists lists;               // z-fail volumes first
+  std::size_t z_fail_volumes = 0;  // of lists.volumes, the first ones
+  std::array<IndexRange, kListKinds> z_fail{},
+      z_pass{};  // in `indices`: the lists one after the other
+  std::array<std::uint32_t, kListKinds> list_begin{};  // where each list begins in `indices`
+  std::vector<std::uint8_t> polygon;                   // per volume: of a single polygon
 
   Buffer indices;
   Buffer extruded;  // Extrusion::cpu: the doubled vertices, those at w = 0 replaced

@@ -52,15 +52,19 @@ void draw_range(const Frame& frame, const IndexRange& range) {
   frame.stats->volume_triangles += range.count / 3;
 }
 
-// Which lists a way of counting draws: those whose front faces enter, and those turned.
-void draw_lists(const Frame& frame, const IndexRange* ranges, bool z_fail, bool caps, bool turned) {
-  if (turned) {
-    if (z_fail || caps) draw_range(frame, ranges[kLightCapTurned]);
-    return;
-  }
-  draw_range(frame, ranges[kSides]);
-  if (z_fail || caps) draw_range(frame, ranges[kLightCap]);
-  if (z_fail) draw_range(frame, ranges[kDarkCap]);
+// Which lists a way of counting draws: z-fail the whole surface of the volume, z-pass its sides,
+// and the light caps of casters that are not seen themselves.
+void draw_lists(const Frame& frame, const std::array<IndexRange, kListKinds>& ranges, bool z_fail,
+                bool caps, bool turned) {
+  const int first = turned ? kSidesTurned : kSides;
+  draw_range(frame, ranges[first]);
+  if (z_fail || caps) draw_range(frame, ranges[first + kLightCap]);
+  if (z_fail) draw_range(frame, ranges[first + kDarkCap]);
+}
+
+bool any(const std::array<IndexRange, kListKinds>& ranges, bool turned) {
+  const int first = turned ? kSidesTurned : kSides;
+  return ranges[first].count + ranges[first + kLightCap].count + ranges[first + kDarkCap].count > 0;
 }
 
 std::vector<InstanceVolumes> prepare(const Frame& frame, const LightPlan& plan) {
@@ -115,16 +119,12 @@ void count_in_stencil(const Frame& frame, const LightPlan& plan,
       for (const bool turned : {false, true}) {
         bool applied = false;
         for (const InstanceVolumes& v : all) {
-          const IndexRange* ranges = z_fail ? v.volumes->z_fail : v.volumes->z_pass;
-          const bool caps = v.plan->caps_in_front;
-          if (turned ? ranges[kLightCapTurned].count == 0 || !(z_fail || caps)
-                     : ranges[kSides].count + ranges[kLightCap].count == 0) {
-            continue;
-          }
+          const auto& ranges = z_fail ? v.volumes->z_fail : v.volumes->z_pass;
+          if (!any(ranges, turned)) continue;
           if (!applied) apply(stencil_pass(m, z_fail, turned, phase), frame.state->support);
           applied = true;
           use_volumes(frame, plan, v);
-          draw_lists(frame, ranges, z_fail, caps, turned);
+          draw_lists(frame, ranges, z_fail, v.plan->caps_in_front, turned);
         }
       }
     }
@@ -161,14 +161,13 @@ void count_by_blending(const Frame& frame, const LightPlan& plan,
     for (std::size_t k = 0; k < v.volumes->lists.volumes.size(); ++k) {
       const bool z_fail = k < v.volumes->z_fail_volumes;
       const Volume& volume = v.volumes->lists.volumes[k];
-      IndexRange ranges[kListKinds] = {volume.sides, volume.light_cap, volume.light_cap_turned,
-                                       volume.dark_cap};
+      std::array<IndexRange, kListKinds> ranges = volume.lists;
       for (int i = 0; i < kListKinds; ++i) ranges[i].first += v.volumes->list_begin[i];
       for (const bool first : {true, false}) {
         const Blend& blend = first == doubling ? kDouble : kHalve;
         set_brightness(frame, plan, blend.brightness);
         for (const bool turned : {false, true}) {
-          if (turned && ranges[kLightCapTurned].count == 0) continue;
+          if (!any(ranges, turned)) continue;
           Pass p;
           p.depth_func = z_fail ? GL_GEQUAL : GL_LESS;
           p.depth_clamp = m.far_plane == FarPlane::clamp;
@@ -319,8 +318,10 @@ void draw_volume_faces(const Frame& frame, const LightPlan& plan, const Pass& pa
     use_volumes(frame, plan, v);
     set(frame.state->programs.volume[static_cast<std::size_t>(plan.method.extrusion)].id(),
         "u_colour", colour);
-    for (const IndexRange* ranges : {v.volumes->z_fail, v.volumes->z_pass})
-      draw_range(frame, ranges[kSides]);
+    for (const auto* ranges : {&v.volumes->z_fail, &v.volumes->z_pass}) {
+      draw_range(frame, (*ranges)[kSides]);
+      draw_range(frame, (*ranges)[kSidesTurned]);
+    }
   }
 }
 

@@ -1,5 +1,6 @@
 #include <gnomon/volume/volume_lists.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 namespace gnomon {
@@ -8,10 +9,12 @@ namespace {
 std::uint32_t near_vertex(std::uint32_t v) { return 2 * v; }
 std::uint32_t far_vertex(std::uint32_t v) { return 2 * v + 1; }
 
-// The side over the edge from a to b, counterclockwise where it is entered. Both halves meet in the
-// diagonal from a to b at infinity; a strip along a loop splits its quads in the same way.
-void push_side(std::vector<std::uint32_t>& list, std::uint32_t a, std::uint32_t b,
+// The side over the edge (a, b), counterclockwise where it is entered if it is not turned. Both
+// halves meet in the diagonal from a to b at infinity; a strip along a loop splits its quads in the
+// same way.
+void push_side(VolumeLists& lists, std::uint32_t a, std::uint32_t b, bool turned,
                bool directional) {
+  std::vector<std::uint32_t>& list = lists.lists[turned ? kSidesTurned : kSides];
   if (directional) {
     list.insert(list.end(), {far_vertex(a), near_vertex(a), near_vertex(b)});
   } else {
@@ -21,33 +24,25 @@ void push_side(std::vector<std::uint32_t>& list, std::uint32_t a, std::uint32_t 
 }
 
 void push_caps(VolumeLists& lists, const Triangle& t, std::int8_t light_side, bool directional) {
-  auto& near_cap = light_side < 0 ? lists.light_cap : lists.light_cap_turned;
+  auto& near_cap = lists.lists[light_side < 0 ? kLightCap : kLightCapTurned];
   near_cap.insert(near_cap.end(), {near_vertex(t[0]), near_vertex(t[1]), near_vertex(t[2])});
   if (directional) return;
-  // The dark cap is left where the light cap is entered: the other way round.
-  const std::uint32_t b = light_side < 0 ? t[2] : t[1], c = light_side < 0 ? t[1] : t[2];
-  lists.dark_cap.insert(lists.dark_cap.end(), {far_vertex(t[0]), far_vertex(b), far_vertex(c)});
-}
-
-std::uint32_t end_of(const std::vector<std::uint32_t>& list) {
-  return static_cast<std::uint32_t>(list.size());
+  // The dark cap is left where the light cap is entered.
+  auto& far_cap = lists.lists[light_side < 0 ? kDarkCapTurned : kDarkCap];
+  far_cap.insert(far_cap.end(), {far_vertex(t[0]), far_vertex(t[1]), far_vertex(t[2])});
 }
 
 Volume begin_volume(const VolumeLists& lists, std::uint32_t caster) {
   Volume v;
   v.caster = caster;
-  v.sides.first = end_of(lists.sides);
-  v.light_cap.first = end_of(lists.light_cap);
-  v.light_cap_turned.first = end_of(lists.light_cap_turned);
-  v.dark_cap.first = end_of(lists.dark_cap);
+  for (int k = 0; k < kListKinds; ++k)
+    v.lists[k].first = static_cast<std::uint32_t>(lists.lists[k].size());
   return v;
 }
 
 void end_volume(VolumeLists& lists, Volume v) {
-  v.sides.count = end_of(lists.sides) - v.sides.first;
-  v.light_cap.count = end_of(lists.light_cap) - v.light_cap.first;
-  v.light_cap_turned.count = end_of(lists.light_cap_turned) - v.light_cap_turned.first;
-  v.dark_cap.count = end_of(lists.dark_cap) - v.dark_cap.first;
+  for (int k = 0; k < kListKinds; ++k)
+    v.lists[k].count = static_cast<std::uint32_t>(lists.lists[k].size()) - v.lists[k].first;
   lists.volumes.push_back(v);
 }
 
@@ -86,7 +81,7 @@ void append_volume(VolumeLists& lists, const TriMesh& mesh, const EdgeTable& tab
     // and a polygon of weight -1 counts +1 where it is seen counterclockwise (shadow_volume.h).
     const auto [a, b] = table.vertices[k];
     for (int i = 0; i < std::abs(multiplicity); ++i) {
-      push_side(lists.sides, multiplicity > 0 ? a : b, multiplicity > 0 ? b : a, directional);
+      push_side(lists, a, b, multiplicity < 0, directional);
     }
   }
   for (const std::uint32_t t : triangles) {
@@ -101,7 +96,7 @@ void append_prism(VolumeLists& lists, const TriMesh& mesh, std::uint32_t triangl
   const Triangle& t = mesh.triangles[triangle];
   for (int i = 0; i < 3; ++i) {
     const std::uint32_t a = t[i], b = t[(i + 1) % 3];
-    push_side(lists.sides, light_side > 0 ? a : b, light_side > 0 ? b : a, directional);
+    push_side(lists, std::min(a, b), std::max(a, b), (a < b) != (light_side > 0), directional);
   }
   push_caps(lists, t, light_side, directional);
   end_volume(lists, volume);

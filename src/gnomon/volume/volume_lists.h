@@ -6,12 +6,14 @@
 // Index 2v is vertex v of the mesh, (x, y, z, 1); index 2v + 1 is the point at infinity behind it
 // as seen from the light, (x, y, z, 1) Lw - L, w = 0 (for a directional light one point for all).
 //
-// Faces: all triangles of `sides` and `dark_cap` and those of `light_cap` are counterclockwise as
-// seen from where a ray enters the volume: a front face counts +1. The triangles of
-// `light_cap_turned` are the other way round: there a back face counts +1. Caps keep the order of
-// the mesh's corners, so that their depths are the bits of the drawn surface's.
+// Faces: a triangle of `sides`, `light_cap` and `dark_cap` is counterclockwise as seen from where a
+// ray enters the volume: its front face counts +1. The turned lists are the other way round: there
+// a back face counts +1. A polygon always has its corners in one order, whichever way it is turned
+// (sides from the lower vertex of the edge to the higher, caps in the mesh's order): a side that
+// two volumes share, and a cap and the drawn surface, have the same depths bit for bit.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -38,14 +40,24 @@ struct IndexRange {
   std::uint32_t first = 0, count = 0;
 };
 
+enum ListKind : std::uint8_t {
+  kSides,
+  kLightCap,
+  kDarkCap,
+  kSidesTurned,
+  kLightCapTurned,
+  kDarkCapTurned,
+  kListKinds
+};
+
 // One closed shadow volume: ranges in the lists of VolumeLists.
 struct Volume {
   std::uint32_t caster = 0;  // what the caller makes of it: a part, a region, a triangle
-  IndexRange sides, light_cap, light_cap_turned, dark_cap;
+  std::array<IndexRange, kListKinds> lists{};
 };
 
 struct VolumeLists {
-  std::vector<std::uint32_t> sides, light_cap, light_cap_turned, dark_cap;  // triangles
+  std::array<std::vector<std::uint32_t>, kListKinds> lists;  // triangles
   std::vector<Volume> volumes;
 };
 

@@ -1,0 +1,161 @@
+// gnomon render: a picture by OpenGL, by any method of the papers.
+#include <chrono>
+#include <cmath>
+#include <memory>
+
+#include <fmt/format.h>
+#include <gnomon/gl/context.h>
+#include <gnomon/gl/renderer.h>
+#include <gnomon/io/png.h>
+#include <gnomon/shadow/cast_shadows.h>
+
+#include "commands.h"
+#include "model_options.h"
+#include "render_options.h"
+#include "view_options.h"
+
+namespace gnomon::app {
+namespace {
+
+struct Options {
+  Common common;
+  ModelOptions models;
+  RenderLights lights;
+  ViewOptions view;
+  gl::FrameOptions frame;
+  std::string api = "gl";
+  std::vector<std::string> lacking;
+  std::string show = "picture";
+  std::string output = "gnomon.png";
+  double near_plane = 0;
+  bool check = false;
+};
+
+Picture picture_of(const gl::Image& image) {
+  Picture out;
+  out.width = image.width;
+  out.height = image.height;
+  out.pixels.reserve(std::size_t(image.width) * image.height);
+  for (std::size_t i = 0; i < image.rgba.size(); i += 4)
+    out.pixels.push_back({image.rgba[i], image.rgba[i + 1], image.rgba[i + 2]});
+  return out;
+}
+
+Picture picture_of(const ShadowMask& mask) {
+  Picture out;
+  out.width = mask.width;
+  out.height = mask.height;
+  out.pixels.reserve(mask.state.size());
+  for (const std::uint8_t state : mask.state) {
+    const std::uint8_t grey = state == ShadowMask::kLit      ? 255
+                              : state == ShadowMask::kShadow ? 0
+                                                             : 128;
+    out.pixels.push_back({grey, grey, grey});
+  }
+  return out;
+}
+
+// Azimuth in the scene's grid from the model to the light: automatic cameras look from that side.
+double light_azimuth(const Scene& scene, const Light& light) {
+  if (light.w == 0) return std::atan2(light.x, light.y);
+  const Box box = model_box(scene);
+  const Vec3 middle = (box.lo + box.hi) * 0.5;
+  return std::atan2(light.x - middle.x, light.y - middle.y);
+}
+
+void run(const Options& o) {
+  gl::HeadlessContext context =
+      take(gl::HeadlessContext::create(o.api == "gles" ? gl::Api::opengl_es : gl::Api::opengl));
+  gl::Capabilities capabilities = take(gl::find_capabilities());
+  for (const std::string& name : o.lacking) capabilities = take(gl::without(capabilities, name));
+  if (o.common.verbose > 0) fmt::print("{}\n", gl::describe(capabilities));
+
+  const LoadedScene loaded = read_models(o.models, o.common.quiet);
+  const Scene& scene = loaded.scene;
+  const ChosenLights lights = choose_lights(o.lights, scene);
+  const View view = make_camera(scene, o.view, light_azimuth(scene, lights.first.light), 1);
+  const bool infinite = !is_parallel(view) && o.frame.method.far_plane != gl::FarPlane::clamp;
+  gl::DepthRange range = gl::depth_range(scene, view, infinite);
+  if (o.near_plane > 0) range.near_plane = o.near_plane;
+  const gl::Camera camera = gl::camera_of(view, range);
+
+  gl::Renderer renderer = take(gl::Renderer::create(capabilities));
+  renderer.add_scene(scene);
+  gl::FrameStats stats;
+  const auto begin = std::chrono::steady_clock::now();
+  Picture picture;
+  if (o.show == "mask") {
+    picture = picture_of(
+        take(renderer.mask(camera, lights.lights.front().light, o.frame.method, &stats)));
+  } else {
+    picture = picture_of(take(renderer.render(camera, lights.lights, o.frame, &stats)));
+  }
+  const double ms =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+  take(write_png(o.output, picture, o.common.threads));
+
+  Warnings warnings = scene.warnings;
+  append(warnings, lights.warnings);
+  if (o.check) {
+    const ShadowMask ours =
+        take(renderer.mask(camera, lights.lights.front().light, o.frame.method));
+    const ShadowMask exact = cast_shadows(scene, lights.lights.front().light, view);
+    std::size_t differ = 0;
+    for (std::size_t k = 0; k < exact.state.size(); ++k) differ += ours.state[k] != exact.state[k];
+    fmt::print("{} of {} pixels differ from the exact mask ({:.4f} %)\n", differ,
+               exact.state.size(), 100.0 * double(differ) / double(exact.state.size()));
+  }
+  if (o.common.quiet) return;
+  print_warnings(warnings);
+  fmt::print("{}, {} x {} pixels, {} triangles, {}\n", title_of(o.models), view.width, view.height,
+             scene.mesh.triangles.size(), lights.first.words);
+  fmt::print("{}\n", gl::describe(stats.method));
+  fmt::print(
+      "{} volumes z-pass, {} z-fail, {} of them of single polygons; {} passes of the scene, {} "
+      "rectangles; first frame {:.0f} ms\n",
+      stats.z_pass_volumes, stats.z_fail_volumes, stats.polygon_volumes, stats.passes,
+      stats.rectangles, ms);
+  fmt::print("  {}\n", o.output);
+}
+
+}  // namespace
+
+void add_render(CLI::App& app) {
+  const auto options = std::make_shared<Options>();
+  Options& o = *options;
+  o.view.size = "1280x800";
+  CLI::App* command =
+      app.add_subcommand("render", "A picture by OpenGL, by any shadow method of the papers");
+  add_model_options(*command, o.models);
+  add_render_lights(*command, o.lights);
+  add_camera_options(*command, o.view);
+  add_method_options(*command, o.frame.method);
+  command->add_option("--near", o.near_plane, "Near plane in metres (default: chosen)")
+      ->check(positive_number())
+      ->group("View");
+  command->add_option("--api", o.api, "gl (OpenGL 3.3) or gles (OpenGL ES 3.0)")
+      ->check(CLI::IsMember({"gl", "gles"}))
+      ->capture_default_str()
+      ->group("OpenGL");
+  command
+      ->add_option("--without", o.lacking,
+                   "Do as if OpenGL lacked it: depth-clamp, depth-bounds, float-colour, "
+                   "multisampling")
+      ->group("OpenGL");
+  command->add_flag("--check", o.check, "Compare the mask of the first light with the exact one")
+      ->group("Output");
+  command->add_option("--show", o.show, "picture, mask, volumes")
+      ->check(CLI::IsMember({"picture", "mask", "volumes"}))
+      ->capture_default_str()
+      ->group("Output");
+  command->add_option("-o,--output", o.output, "The PNG file")
+      ->capture_default_str()
+      ->group("Output");
+  add_common(*command, o.common);
+  command->callback([options] {
+    if (options->show == "volumes") options->frame.show = gl::Show::volumes;
+    run(*options);
+  });
+}
+
+}  // namespace gnomon::app
