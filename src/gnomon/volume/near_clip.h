@@ -47,8 +47,9 @@ NearClip near_clip_volume(const std::array<Vec3, 4>& near_rectangle, const Light
 // False: no caster within the box lo..hi meets a segment from the near rectangle to the light.
 bool may_shade_near(const NearClip& near, const Vec3& lo, const Vec3& hi);
 
-// False: no caster within the convex hull of the points does. Not more than the box of the points
-// can prove, and what separates by a plane of the volume.
+// False: no caster within the convex hull of the points does. Tries the box of the points, then
+// each half space on the points themselves: planes of the hull of the points are not tried, so this
+// says "may" somewhat more often than it must. No points: false.
 bool may_shade_near(const NearClip& near, std::span<const Vec3> points);
 
 // The same for the vertices of some triangles of a mesh.
