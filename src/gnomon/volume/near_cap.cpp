@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include <gnomon/core/exact.h>
+
 // A corner is made from the two ends of one edge of the simplex, or of one segment of the cut, by a
 // formula in which each end has a role that it has by itself: positive or negative side, inside or
 // outside. So it is the same bits in whatever order, and for whichever neighbour, the edge is met.
@@ -12,15 +14,6 @@ namespace {
 
 double dot(const Vec4& f, const Vec4& x) {
   return (f.x * x.x + f.y * x.y) + (f.z * x.z + f.w * x.w);
-}
-
-double determinant(const Vec4& a, const Vec4& b, const Vec4& c, const Vec4& d) {
-  const auto minor = [](const Vec4& p, const Vec4& q, int i, int j) {
-    return p[i] * q[j] - p[j] * q[i];
-  };
-  return minor(a, b, 0, 1) * minor(c, d, 2, 3) - minor(a, b, 0, 2) * minor(c, d, 1, 3) +
-         minor(a, b, 0, 3) * minor(c, d, 1, 2) + minor(a, b, 1, 2) * minor(c, d, 0, 3) -
-         minor(a, b, 1, 3) * minor(c, d, 0, 2) + minor(a, b, 2, 3) * minor(c, d, 0, 1);
 }
 
 // A point of the plane, (u, v) homogeneous.
@@ -75,8 +68,11 @@ Cut clipped(const Cut& cut, int square_side) {
 }  // namespace
 
 CapPlane cap_plane(const Vec4& u, const Vec4& v, const Vec4& w, const Vec4& h) {
-  const double d = determinant(u, v, w, h);
-  return {u, v, w, h, d > 0 ? 1 : d < 0 ? -1 : 0};
+  ExactStats ignored;
+  const int orientation = tie_sign({}, ignored, [&]<class T>(int, int, int) {
+    return det4<T>(lift<T>(u), lift<T>(v), lift<T>(w), lift<T>(h));
+  });
+  return {u, v, w, h, orientation};
 }
 
 CapPlane cap_plane(const Vec3& origin, const Vec3& u_axis, const Vec3& v_axis) {

@@ -20,7 +20,8 @@ namespace gnomon {
 // plane.
 struct CapPlane {
   Vec4 u, v, w, h;
-  int orientation = 0;  // sign of the determinant |u; v; w; h|
+  int orientation =
+      0;  // exact sign of the determinant |u; v; w; h|; 0: not a plane with coordinates
 };
 
 // The plane through `origin` along two axes that are not parallel; the point origin + s u_axis + t
