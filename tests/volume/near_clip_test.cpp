@@ -177,17 +177,87 @@ TEST(NearClip, NoTriangleThatIsRuledOutCrossesASegmentFromTheRectangleToTheLight
     const std::uint32_t only[] = {0};
     const bool may = may_shade_near(near, t);
     EXPECT_EQ(may, may_shade_near(near, mesh, only));
+    const bool may_alone = may_any_shade_near(near, mesh, only);
+    EXPECT_TRUE(may || !may_alone);
     ruled_out += !may;
     for (int j = 0; j < 30; ++j) {
       const double a = unit(random), b = unit(random);
       const Vec3 x = r[0] + a * (r[1] - r[0]) + b * (r[3] - r[0]);
       const bool crossed = crosses(t[0], t[1], t[2], point(x), light);
       hits += crossed;
-      EXPECT_FALSE(crossed && !may) << k;
+      EXPECT_FALSE(crossed && !may_alone) << k;
     }
   }
   EXPECT_GT(ruled_out, 1000);
   EXPECT_GT(hits, 500);
+}
+
+// Slow and clear: the triangle clipped by the planes of the volume.
+bool triangle_meets_by_clipping(const Rectangle& r, const Light& light,
+                                const std::array<Vec3, 3>& t) {
+  const Vec3 l(light);
+  std::array<Vec3, 4> end;
+  for (std::size_t k = 0; k < 4; ++k) end[k] = light.w == 0 ? r[k] + kFar * glm::normalize(l) : l;
+  Vec3 middle(0.0);
+  for (std::size_t k = 0; k < 4; ++k) middle += (r[k] + end[k]) / 8.0;
+  std::vector<std::array<Vec3, 3>> planes = {{r[0], r[1], r[2]}};
+  if (light.w == 0) planes.push_back({end[0], end[1], end[2]});
+  for (std::size_t k = 0; k < 4; ++k) planes.push_back({r[k], r[(k + 1) % 4], end[k]});
+  std::vector<Vec3> f(t.begin(), t.end());
+  for (const auto& p : planes) {
+    Vec3 n = glm::normalize(glm::cross(p[1] - p[0], p[2] - p[0]));
+    if (glm::dot(n, middle - p[0]) < 0) n = -n;
+    std::vector<Vec3> kept;
+    for (std::size_t k = 0; k < f.size(); ++k) {
+      const Vec3 &a = f[k], &b = f[(k + 1) % f.size()];
+      const double fa = glm::dot(n, a - p[0]), fb = glm::dot(n, b - p[0]);
+      if (fa >= 0) kept.push_back(a);
+      if (fa * fb < 0) kept.push_back(a + (b - a) * (fa / (fa - fb)));
+    }
+    f = kept;
+  }
+  return !f.empty();
+}
+
+TEST(NearClip, AnswersForTrianglesEqualClippingThemByTheVolume) {
+  std::mt19937 random(13);
+  std::uniform_real_distribution<double> u(-5, 5);
+  int may = 0, never = 0;
+  for (int k = 0; k < 20000; ++k) {
+    const Rectangle r = random_rectangle(random);
+    const Light light(u(random), u(random), u(random), k % 2);
+    TriMesh m;
+    const Vec3 c(u(random), u(random), u(random));
+    for (int j = 0; j < 3; ++j) {
+      m.positions.push_back(c + Vec3(u(random), u(random), u(random)) / (1.0 + k % 5));
+    }
+    m.triangles = {{0, 1, 2}};
+    const std::uint32_t only[] = {0};
+    const bool meets =
+        triangle_meets_by_clipping(r, light, {m.positions[0], m.positions[1], m.positions[2]});
+    EXPECT_EQ(may_any_shade_near(near_clip_volume(r, light), m, only), meets) << k;
+    ++(meets ? may : never);
+  }
+  EXPECT_GT(may, 500);
+  EXPECT_GT(never, 3000);
+}
+
+TEST(NearClip, AValleysFloorAndSlopesDoNotShadeAViewThatTheirHullHolds) {
+  // A camera above the floor of a valley, a sun above: no slope is between them.
+  TriMesh m;
+  test::add_quad(m, {-9, -9, 0}, {9, -9, 0}, {9, 9, 0}, {-9, 9, 0});
+  test::add_quad(m, {9, -9, 0}, {30, -9, 9}, {30, 9, 9}, {9, 9, 0});
+  test::add_quad(m, {-30, -9, 9}, {-9, -9, 0}, {-9, 9, 0}, {-30, 9, 9});
+  std::vector<std::uint32_t> all(m.triangles.size());
+  for (std::uint32_t t = 0; t < all.size(); ++t) all[t] = t;
+  const Rectangle r = {Vec3(0, -0.1, 1.6), Vec3(0, 0.1, 1.6), Vec3(0, 0.1, 1.8),
+                       Vec3(0, -0.1, 1.8)};
+  const NearClip high = near_clip_volume(r, Light(1, 0, 1, 0)),
+                 low = near_clip_volume(r, Light(1, 0, 0.1, 0));
+  EXPECT_TRUE(may_shade_near(high, m, all));
+  EXPECT_FALSE(may_any_shade_near(high, m, all));
+  EXPECT_TRUE(may_any_shade_near(low, m, all));  // now the eastern slope is
+  EXPECT_FALSE(may_any_shade_near(low, m, {}));
 }
 
 TEST(NearClip, TinyNearRectanglesFarFromTheOriginAreStillJudgedSafely) {
@@ -208,7 +278,12 @@ TEST(NearClip, TinyNearRectanglesFarFromTheOriginAreStillJudgedSafely) {
     const auto corner = [&] { return on + Vec3(u(random), u(random), u(random)) * 1e-6; };
     const std::array<Vec3, 3> t = {corner(), corner(), corner()};
     if (crosses(t[0], t[1], t[2], point(x), light)) {
+      TriMesh m;
+      m.positions.assign(t.begin(), t.end());
+      m.triangles = {{0, 1, 2}};
+      const std::uint32_t only[] = {0};
       EXPECT_TRUE(may_shade_near(near_clip_volume(r, light), t)) << k;
+      EXPECT_TRUE(may_any_shade_near(near_clip_volume(r, light), m, only)) << k;
       ++crossed;
     }
   }

@@ -28,6 +28,17 @@ double lowered(double x, double y) { return std::nextafter(x - y, -kInfinity); }
 double upper_dot(const Vec3& n, const Vec3& p) { return raised(dot(n, p), dot_error(n, p)); }
 double lower_dot(const Vec3& n, const Vec3& p) { return lowered(dot(n, p), dot_error(n, p)); }
 
+// For a normal that should be at right angles to a directional light's direction d, but is not, by
+// rounding: it is tilted by some roundings so that the prism goes inwards for certain. With e an
+// error bound of n.d, n - tilt d has (n - tilt d).d <= -7 (|n.d| + e) before its own rounding
+// (which moves it by less than e; who uses it tests it again).
+Vec3 along_light(const Light& light, const Vec3& n) {
+  if (light.w != 0) return n;
+  const Vec3 d(light);
+  const double tilt = 8 * (std::fabs(dot(n, d)) + dot_error(n, d)) / dot(d, d);
+  return tilt > 0 ? n - tilt * d : n;
+}
+
 struct Builder {
   const std::array<Vec3, 4>& corners;
   const Light& light;
@@ -49,17 +60,20 @@ struct Builder {
     near.half_spaces[static_cast<std::size_t>(near.size++)] = {n, most};
   }
 
-  // The same for a normal that should be at right angles to a directional light's direction d, but
-  // is not, by rounding: it is tilted by some roundings so that the prism goes inwards for certain.
-  // With e an error bound of n.d, n - tilt d has (n - tilt d).d <= -7 (|n.d| + e) before its own
-  // rounding (which moves it by less than e, and add() tests it again).
-  void add_along_light(const Vec3& n) {
-    if (light.w != 0) return add(n);
-    const Vec3 d = light_vector();
-    const double tilt = 8 * (std::fabs(dot(n, d)) + dot_error(n, d)) / dot(d, d);
-    add(tilt > 0 ? n - tilt * d : n);
-  }
+  void add_along_light(const Vec3& n) { add(along_light(light, n)); }
 };
+
+// The directions of the volume's edges: two of the rectangle, and those towards the light.
+struct Edges {
+  Vec3 side_u, side_v;
+  std::array<Vec3, 4> towards;
+};
+Edges edges_of(const std::array<Vec3, 4>& corners, const Light& light) {
+  Edges e{corners[1] - corners[0], corners[3] - corners[0], {}};
+  const Vec3 l(light);
+  for (std::size_t k = 0; k < 4; ++k) e.towards[k] = light.w == 0 ? l : l - light.w * corners[k];
+  return e;
+}
 
 }  // namespace
 
@@ -68,6 +82,8 @@ NearClip near_clip_volume(const std::array<Vec3, 4>& near_rectangle, const Light
   const Vec3 l = b.light_vector();
 
   NearClip& near = b.near;
+  near.near_rectangle = near_rectangle;
+  near.light = light;
   for (int k = 0; k < 3; ++k) {
     near.lo[k] = near.hi[k] = near_rectangle[0][k];
     for (const Vec3& c : near_rectangle) {
@@ -83,13 +99,7 @@ NearClip near_clip_volume(const std::array<Vec3, 4>& near_rectangle, const Light
     }
   }
 
-  // Edges: two of the rectangle, and those towards the light.
-  const Vec3 side_u = near_rectangle[1] - near_rectangle[0],
-             side_v = near_rectangle[3] - near_rectangle[0];
-  std::array<Vec3, 4> towards;
-  for (std::size_t k = 0; k < 4; ++k) {
-    towards[k] = light.w == 0 ? l : l - light.w * near_rectangle[k];
-  }
+  const auto [side_u, side_v, towards] = edges_of(near_rectangle, light);
   // The centre, to know which way is out (times 4).
   const Vec3 middle = near_rectangle[0] + near_rectangle[1] + near_rectangle[2] + near_rectangle[3];
   for (std::size_t k = 0; k < 4; ++k) {
@@ -166,6 +176,69 @@ bool may_shade_near(const NearClip& near, const TriMesh& mesh,
   return may_shade_near_points(near, 3 * triangles.size(), [&](std::size_t k) -> const Vec3& {
     return mesh.positions[mesh.triangles[triangles[k / 3]][k % 3]];
   });
+}
+
+namespace {
+
+using Corners3 = std::array<Vec3, 3>;
+
+// True only if the triangle lies strictly beyond the volume along n.
+bool beyond(const NearClip& near, const Corners3& t, const Vec3& n) {
+  const double least = std::min({lower_dot(n, t[0]), lower_dot(n, t[1]), lower_dot(n, t[2])});
+  const double to_light = upper_dot(n, Vec3(near.light));
+  if (near.light.w == 0 ? to_light > 0
+                        : std::nextafter(to_light / near.light.w, kInfinity) >= least) {
+    return false;
+  }
+  for (const Vec3& c : near.near_rectangle) {
+    if (upper_dot(n, c) >= least) return false;
+  }
+  return true;
+}
+
+bool may_triangle(const NearClip& near, const Edges& edges, const Corners3& t) {
+  for (int k = 0; k < 3; ++k) {
+    if (std::min({t[0][k], t[1][k], t[2][k]}) > near.hi[k]) return false;
+    if (std::max({t[0][k], t[1][k], t[2][k]}) < near.lo[k]) return false;
+  }
+  for (int h = 0; h < near.size; ++h) {
+    const auto& [n, most] = near.half_spaces[static_cast<std::size_t>(h)];
+    if (lower_dot(n, t[0]) > most && lower_dot(n, t[1]) > most && lower_dot(n, t[2]) > most) {
+      return false;
+    }
+  }
+  const Vec3 normal = cross(t[1] - t[0], t[2] - t[0]);
+  if (beyond(near, t, normal) || beyond(near, t, -normal)) return false;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3 edge = t[(k + 1) % 3] - t[k];
+    for (const Vec3& side : {edges.side_u, edges.side_v}) {
+      const Vec3 n = cross(side, edge);
+      if (beyond(near, t, n) || beyond(near, t, -n)) return false;
+    }
+    for (std::size_t j = 0; j < (near.light.w == 0 ? 1u : 4u); ++j) {
+      const Vec3 n = cross(edges.towards[j], edge), m = -n;
+      if (beyond(near, t, along_light(near.light, n)) ||
+          beyond(near, t, along_light(near.light, m))) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+bool may_any_shade_near(const NearClip& near, const TriMesh& mesh,
+                        std::span<const std::uint32_t> triangles) {
+  const Edges edges = edges_of(near.near_rectangle, near.light);
+  for (const std::uint32_t t : triangles) {
+    const Triangle& v = mesh.triangles[t];
+    if (may_triangle(near, edges,
+                     {mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]]})) {
+      return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace gnomon

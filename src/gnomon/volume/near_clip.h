@@ -35,6 +35,9 @@ struct NearClip {
   std::array<HalfSpace, kMaxHalfSpaces> half_spaces;
   int size = 0;           // half spaces in use; those that would not hold for certain are left out
   Vec3 lo{0.0}, hi{0.0};  // bounds of the volume; infinite where a directional light's prism is
+  // As given; for planes that come with the casters.
+  std::array<Vec3, 4> near_rectangle;
+  Light light;
 };
 
 // `near_rectangle`: its corners in order around it (either way), scene coordinates. They are taken
@@ -47,12 +50,19 @@ NearClip near_clip_volume(const std::array<Vec3, 4>& near_rectangle, const Light
 // False: no caster within the box lo..hi meets a segment from the near rectangle to the light.
 bool may_shade_near(const NearClip& near, const Vec3& lo, const Vec3& hi);
 
-// False: no caster within the convex hull of the points does. Not more than the box of the points
-// can prove, and what separates by a plane of the volume.
+// False: no caster within the convex hull of the points does. Tries the box of the points, then
+// each half space on the points themselves: planes of the hull of the points are not tried, so this
+// says "may" somewhat more often than it must. No points: false.
 bool may_shade_near(const NearClip& near, std::span<const Vec3> points);
 
-// The same for the vertices of some triangles of a mesh.
+// The same for the convex hull of some triangles of a mesh.
 bool may_shade_near(const NearClip& near, const TriMesh& mesh,
                     std::span<const std::uint32_t> triangles);
+
+// False: none of these triangles of a mesh does. Tighter than their hull (a terrain's holds every
+// street), as tight as rounding allows, and linear in the triangles; most are ruled out by their
+// box.
+bool may_any_shade_near(const NearClip& near, const TriMesh& mesh,
+                        std::span<const std::uint32_t> triangles);
 
 }  // namespace gnomon

@@ -49,8 +49,9 @@ Corners3 corners(const TriMesh& mesh, std::uint32_t t) {
   return {mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]]};
 }
 
-// The vertex furthest from the plane of the first triangle, in floating point.
-Vec3 furthest_vertex(const TriMesh& mesh, const Part& part) {
+// A vertex off the plane of the first triangle: the furthest one in floating point, or, if that is
+// exactly in the plane, the first that exactly is not. One in the plane if all are.
+Vec3 vertex_off_plane(const TriMesh& mesh, const Part& part) {
   const auto [a, b, c] = corners(mesh, part.triangles[0]);
   const Vec3 u = b - a, v = c - a;
   const Vec3 n(u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x);
@@ -63,6 +64,13 @@ Vec3 furthest_vertex(const TriMesh& mesh, const Part& part) {
       if (h > largest) largest = h, furthest = mesh.positions[k];
     }
   }
+  if (sign4(row(a), row(b), row(c), row(furthest)) != 0) return furthest;
+  for (const std::uint32_t t : part.triangles) {
+    for (const std::uint32_t k : mesh.triangles[t]) {
+      const Vec3& p = mesh.positions[k];
+      if (sign4(row(a), row(b), row(c), row(p)) != 0) return p;
+    }
+  }
   return furthest;
 }
 
@@ -71,7 +79,7 @@ Vec3 furthest_vertex(const TriMesh& mesh, const Part& part) {
 // meets the first triangle alone; else 0.
 int winding_of_convex(const TriMesh& mesh, const Part& part) {
   const auto [a, b, c] = corners(mesh, part.triangles[0]);
-  const std::array<Vec3, 4> o = {a, b, c, furthest_vertex(mesh, part)};
+  const std::array<Vec3, 4> o = {a, b, c, vertex_off_plane(mesh, part)};
   const std::array<Vec3, 3> g = {a, b, c};
   const int inner = sign4(row(a), row(b), row(c), row(o));
   if (inner == 0) return 0;  // flat
