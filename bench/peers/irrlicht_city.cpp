@@ -28,6 +28,7 @@ class IIrrXMLReader;
 #include <vector>
 
 #include "../report.h"
+#include "city_check.h"
 #include "city_view.h"
 
 namespace gnomon::bench {
@@ -35,15 +36,16 @@ namespace {
 
 using irr::core::vector3df;
 
+constexpr int kMovedFrame = 7;  // of the moving lamp's frames, the one whose picture is checked
+
 struct Options {
   std::string boxes, ground;
   int size = 512;
   std::string method = "zpass";
-  std::string volumes = "box";
+  int block = 1;        // boxes across and deep that one volume is made of
   double infinity = 0;  // metres; 0: as short as the ground allows
   int rounds = 4, frames = 25;
   std::string picture, json;
-  bool unshadowed = false;
   int picture_frame = -1;  // of the moving lamp; -1: the still lamp
 };
 
@@ -85,18 +87,14 @@ Owned<irr::scene::SMesh> mesh_of(irr::scene::SMeshBuffer* buffer) {
   return mesh;
 }
 
-// How far beyond a box's vertices the volume must reach to be below the ground, for the lamp still
-// and moving. What reaches below the ground behind it is never seen, but costs pixels.
-float reach(const irr::scene::IMeshBuffer& box) {
-  std::vector<vector3df> lamps = {mirrored(kLamp)};
-  for (int k = 0; k < kLampFrames; ++k) lamps.push_back(mirrored(moving_lamp(k)));
+// How far beyond a box's vertices its volume must reach to be below the ground, for all these
+// lamps. What is farther below is never seen, but costs pixels.
+float reach(const irr::scene::IMeshBuffer& box, const std::vector<vector3df>& lamps) {
   float longest = 0;
   for (irr::u32 i = 0; i < box.getVertexCount(); ++i) {
     const vector3df& v = box.getPosition(i);
-    for (const vector3df& lamp : lamps) {
-      const vector3df ray = v - lamp;
-      longest = std::max(longest, v.Z / (lamp.Z - v.Z) * ray.getLength());
-    }
+    for (const vector3df& lamp : lamps)
+      longest = std::max(longest, v.Z / (lamp.Z - v.Z) * (v - lamp).getLength());
   }
   return 1.01f * longest + 1;
 }
@@ -124,8 +122,10 @@ class City {
     scene_->getParameters()->setAttribute(irr::scene::OBJ_LOADER_IGNORE_MATERIAL_FILES, true);
     read_models();
     add_camera_and_lamp();
-    live_ = add_volumes();
-    kept_ = add_volumes();
+    std::vector<vector3df> lamps = {mirrored(kLamp)};
+    kept_ = add_volumes(lamps);
+    for (int k = 0; k < kLampFrames; ++k) lamps.push_back(mirrored(moving_lamp(k)));
+    live_ = add_volumes(lamps);
     show(Shadows::kept);
     frame(kLamp);  // makes the volumes that are kept
     keep_volumes();
@@ -147,26 +147,26 @@ class City {
     return ms;
   }
 
-  // The picture of that lamp, as it is before it is shown: of the window itself, X
-  // servers keep only what they like.
-  void write_picture(const std::string& path, Shadows shadows, const Vec3& lamp) {
+  // The picture, as it is before it is shown (what the window keeps is up to the X server): three
+  // bytes a pixel, row 0 at the top.
+  std::vector<std::uint8_t> picture(Shadows shadows, const Vec3& lamp) {
     show(shadows);
-    frame(lamp);
     draw_frame(lamp);
-    const irr::core::dimension2du size = driver_->getScreenSize();
-    const Owned<irr::video::IImage> image(driver_->createImage(irr::video::ECF_R8G8B8, size));
-    std::vector<std::uint8_t> rgb(std::size_t{3} * size.Width * size.Height);
+    const auto row = 3 * static_cast<std::size_t>(o_.size);
+    std::vector<std::uint8_t> upside_down(row * row / 3), rgb;
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glReadBuffer(GL_BACK);
-    glReadPixels(0, 0, o_.size, o_.size, GL_RGB, GL_UNSIGNED_BYTE, rgb.data());
+    glReadPixels(0, 0, o_.size, o_.size, GL_RGB, GL_UNSIGNED_BYTE, upside_down.data());
     driver_->endScene();
-    for (irr::u32 y = 0; y < size.Height; ++y) {  // OpenGL's first row is the lowest
-      for (irr::u32 x = 0; x < size.Width; ++x) {
-        const std::uint8_t* c = &rgb[std::size_t{3} * (y * size.Width + x)];
-        image->setPixel(x, size.Height - 1 - y, irr::video::SColor(255, c[0], c[1], c[2]));
-      }
-    }
-    if (!driver_->writeImageToFile(image.get(), path.c_str())) {
+    for (auto end = upside_down.end(); end != upside_down.begin(); end -= std::ptrdiff_t(row))
+      rgb.insert(rgb.end(), end - std::ptrdiff_t(row), end);
+    return rgb;
+  }
+
+  void write_png(std::vector<std::uint8_t> rgb, const std::string& path) {
+    const Owned<irr::video::IImage> image(driver_->createImageFromData(
+        irr::video::ECF_R8G8B8, driver_->getScreenSize(), rgb.data(), true, false));
+    if (!image || !driver_->writeImageToFile(image.get(), path.c_str())) {
       throw std::runtime_error("Cannot write " + path);
     }
   }
@@ -231,21 +231,22 @@ class City {
     lamp_->setAutomaticCulling(irr::scene::EAC_OFF);
   }
 
-  // The origin of the volume's node that the box belongs to. Irrlicht 1.8 takes the lamp's position
-  // in the node's frame for the direction towards it: signs of faces are right only where the
-  // origin is as good as the face itself.
+  // The origin of the volume's node that the box belongs to: the middle of its block. Irrlicht 1.8
+  // takes the lamp's position in the node's frame for the direction towards the lamp, from every
+  // face: the sides that it finds are right only as far as the lamp lies the same way from the
+  // origin.
   vector3df origin_of(const irr::scene::IMeshBuffer& box) const {
-    vector3df c = box.getBoundingBox().getCenter();
-    c.Z = 0;
-    if (o_.volumes == "box") return c;
-    if (o_.volumes == "city") return {};
-    const float quarter = static_cast<float>(scenes::kBoxCityHalf / 2);
-    return {std::copysign(quarter, c.X), std::copysign(quarter, c.Y), 0};
+    const vector3df c = box.getBoundingBox().getCenter();
+    const double block = o_.block * scenes::kBoxPitch, corner = scenes::kBoxCityHalf;
+    const auto middle = [&](float x) {
+      return static_cast<float>((std::floor((x + corner) / block) + 0.5) * block - corner);
+    };
+    return {middle(c.X), middle(c.Y), 0};
   }
 
   // Shadow volumes hang on nodes with a mesh that draws nothing: so they have origins and meshes of
   // their own, and all boxes are still drawn by one call.
-  irr::scene::ISceneNode* add_volumes() {
+  irr::scene::ISceneNode* add_volumes(const std::vector<vector3df>& lamps) {
     struct Part {
       Owned<irr::scene::SMeshBuffer> mesh{new irr::scene::SMeshBuffer};
       float reach = 0;
@@ -256,7 +257,7 @@ class City {
       const vector3df origin = origin_of(box);
       Part& part = parts[{origin.X, origin.Y}];
       append(*part.mesh, box, origin);
-      part.reach = std::max(part.reach, reach(box));
+      part.reach = std::max(part.reach, reach(box, lamps));
     }
     Owned<irr::scene::SMeshBuffer> nothing(new irr::scene::SMeshBuffer);
     nothing->Material.Lighting = false;
@@ -304,50 +305,66 @@ struct Case {
   std::vector<double> ms{};
 };
 
-void measure(City& city, const Options& o, std::vector<Case>& cases) {
+std::vector<Case> measure(City& city, const Options& o) {
+  std::vector<Case> cases = {{"no shadows", City::Shadows::none, false},
+                             {"lamp still, volumes kept", City::Shadows::kept, false},
+                             {"lamp still", City::Shadows::live, false},
+                             {"lamp moving", City::Shadows::live, true}};
   constexpr int kWarmUp = 3;                         // frames at the beginning of each turn
   for (int round = -1; round < o.rounds; ++round) {  // round -1 warms up
     for (Case& c : cases) {
       city.show(c.shadows);
       for (int k = -kWarmUp; k < o.frames; ++k) {
-        const double ms =
-            city.frame(c.moving ? moving_lamp(std::max(round, 0) * o.frames + k) : kLamp);
+        const double ms = city.frame(c.moving ? moving_lamp(round * o.frames + k) : kLamp);
         if (round >= 0 && k >= 0) c.ms.push_back(ms);
       }
     }
   }
+  return cases;
+}
+
+nlohmann::ordered_json to_json(const CityCheck& c) {
+  return {{"samples", c.samples}, {"in_shadow", c.shadow}, {"wrong", c.wrong}};
 }
 
 int run(const Options& o) {
   City city(o);
-  const std::string gl = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
   if (!o.picture.empty()) {
-    city.write_picture(o.picture, o.unshadowed ? City::Shadows::none : City::Shadows::live,
-                       o.picture_frame < 0 ? kLamp : moving_lamp(o.picture_frame));
+    const Vec3 lamp = o.picture_frame < 0 ? kLamp : moving_lamp(o.picture_frame);
+    city.write_png(city.picture(City::Shadows::live, lamp), o.picture);
   }
-  std::vector<Case> cases = {{"none", City::Shadows::none, false},
-                             {"still, volumes kept", City::Shadows::kept, false},
-                             {"still", City::Shadows::live, false},
-                             {"moving", City::Shadows::live, true}};
-  measure(city, o, cases);
-  nlohmann::ordered_json results = {{"program", "Irrlicht " + city.version()},
-                                    {"gl", gl},
-                                    {"boxes", city.boxes()},
-                                    {"size", o.size},
-                                    {"method", o.method},
-                                    {"volumes", o.volumes},
-                                    {"infinity", o.infinity}};
-  for (Case& c : cases) {
+  const auto check = [&](City::Shadows shadows, const Vec3& lamp) {
+    return check_city(city.picture(shadows, lamp), city.picture(City::Shadows::none, lamp), o.size,
+                      lamp);
+  };
+  const CityCheck still = check(City::Shadows::live, kLamp),
+                  kept = check(City::Shadows::kept, kLamp),
+                  moving = check(City::Shadows::live, moving_lamp(kMovedFrame));
+  const std::vector<Case> cases = measure(city, o);
+
+  const std::string what =
+      fmt::format("{}, {} x {} boxes a volume, {}", o.method, o.block, o.block,
+                  o.infinity > 0 ? fmt::format("{} m long", o.infinity) : "as long as needed");
+  std::string row = fmt::format("| {} | Irrlicht {} | {} |", o.size, city.version(), what);
+  nlohmann::ordered_json results = {
+      {"program", "Irrlicht " + city.version()},
+      {"gl_renderer", reinterpret_cast<const char*>(glGetString(GL_RENDERER))},
+      {"boxes", city.boxes()},
+      {"size", o.size},
+      {"method", o.method},
+      {"block", o.block},
+      {"infinity_m", o.infinity},
+      {"check", {{"still", to_json(still)}, {"kept", to_json(kept)}, {"moved", to_json(moving)}}}};
+  for (const Case& c : cases) {
     const double mean = std::accumulate(c.ms.begin(), c.ms.end(), 0.0) / double(c.ms.size());
-    fmt::print("| Irrlicht {}, {}, one volume per {}, {} | {} | {} | {:.1f} | {:.1f} | {:.1f} |\n",
-               city.version(), o.method, o.volumes,
-               o.infinity > 0 ? fmt::format("{} m", o.infinity) : "to the ground", o.size, c.name,
-               median(c.ms), *std::min_element(c.ms.begin(), c.ms.end()), mean);
+    row += fmt::format(" {:.1f} ({:.1f}, {:.1f}) |", median(c.ms),
+                       *std::min_element(c.ms.begin(), c.ms.end()), mean);
     results["ms"][c.name] = c.ms;
   }
+  fmt::print("{} {}, {}, {} of {} |\n", row, kept.wrong, still.wrong, moving.wrong, still.samples);
   if (!o.json.empty()) {
     std::ofstream out(o.json);
-    out << results.dump() << std::endl;
+    out << results.dump(1) << std::endl;
     if (!out) throw std::runtime_error("Cannot write " + o.json);
   }
   return 0;
@@ -370,10 +387,10 @@ int main(int argc, char** argv) {
   app.add_option("--method", o.method, "Counting")
       ->check(CLI::IsMember({"zpass", "zfail"}))
       ->capture_default_str();
-  app.add_option("--volumes", o.volumes,
-                 "A volume for each box, each quarter of the city, or the city; only the first is "
-                 "right for any lamp")
-      ->check(CLI::IsMember({"box", "quarter", "city"}))
+  app.add_option("--block", o.block,
+                 "Boxes across and deep that one volume is made of; more than 1 is right only for "
+                 "lamps outside the streets' strips that the block lies in")
+      ->check(CLI::IsMember({1, 2, 4, 5, 10, 20}))
       ->capture_default_str();
   app.add_option("--infinity", o.infinity,
                  "Metres from a box to its volume's end (0: as few as needed to reach the ground)")
@@ -386,7 +403,6 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
   app.add_option("--picture", o.picture, "Write the picture to this PNG");
-  app.add_flag("--unshadowed", o.unshadowed, "Leave the shadows out of it");
   app.add_option("--picture-frame", o.picture_frame,
                  "Of the moving lamp's frames, the picture's (-1: the still lamp)")
       ->capture_default_str();
