@@ -7,6 +7,7 @@
 
 #include <gnomon/core/place.h>
 #include <gnomon/mesh/weld.h>
+#include <scenes/random.h>
 
 namespace gnomon::scenes {
 namespace {
@@ -17,21 +18,6 @@ constexpr int kLotsAcross = 6, kLotsDeep = 2;  // of a block
 constexpr double kBlockX = kLotsAcross * kLot + kStreet, kBlockY = kLotsDeep * kLot + kStreet;
 constexpr double kSunk = 1.0;  // buildings reach this far below the lowest ground beneath them
 constexpr double kShellTriangles = 23.93;  // of a building, on average: measured
-
-// Steele, Lea, Flood: Fast splittable pseudorandom number generators, 2014 (SplitMix64). The
-// standard's distributions differ between libraries.
-struct Random {
-  std::uint64_t state;
-  std::uint64_t bits() {
-    std::uint64_t z = state += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-  }
-  double between(double lo, double hi) {
-    return lo + (hi - lo) * static_cast<double>(bits() >> 11) * 0x1p-53;
-  }
-};
 
 double millimetres(double x) { return std::round(x * 1000) / 1000; }
 

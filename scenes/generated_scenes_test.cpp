@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include <gnomon/mesh/edge_table.h>
+#include <scenes/box_city.h>
 #include <scenes/generated_city.h>
 #include <scenes/generated_sphere.h>
 
@@ -78,6 +79,48 @@ TEST(GeneratedCity, LiesWithinItsBounds) {
       ASSERT_TRUE(p.x > bounds.x0 && p.x < bounds.x1 && p.y > bounds.y0 && p.y < bounds.y1);
     }
   }
+}
+
+TEST(BoxCity, HasClosedBoxesWoundOutwardsAndAGroundBelow) {
+  const Scene s = box_city();
+  ASSERT_EQ(s.surfaces.size(), 401u);
+  EXPECT_EQ(s.mesh.triangles.size(), 2u + 400 * 12);
+  std::vector<std::uint8_t> boxes(s.mesh.triangles.size());
+  for (std::size_t t = 0; t < boxes.size(); ++t) boxes[t] = s.surface_of[t] == 0 ? 0 : 1;
+  EXPECT_EQ(open_edges(s, boxes), 0u);
+  for (std::uint32_t b = 1; b < s.surfaces.size(); ++b) {
+    std::vector<std::uint8_t> one(s.mesh.triangles.size());
+    for (std::size_t t = 0; t < one.size(); ++t) one[t] = s.surface_of[t] == b ? 1 : 0;
+    EXPECT_GE(volume(s, one), 8.0 * 8.0 * 4.0) << s.surfaces[b].object;
+  }
+}
+
+TEST(BoxCity, LeavesStreetsFreeAndIsNoHigherThanItSays) {
+  const Scene s = box_city();
+  double tallest = 0;
+  for (std::size_t t = 0; t < s.mesh.triangles.size(); ++t) {
+    for (const std::uint32_t v : s.mesh.triangles[t]) {
+      const Vec3& p = s.mesh.positions[v];
+      if (s.surface_of[t] == 0) {
+        EXPECT_EQ(Vec3(std::fabs(p.x), std::fabs(p.y), p.z),
+                  Vec3(kBoxCityHalf + kBoxCityMargin, kBoxCityHalf + kBoxCityMargin, 0));
+        continue;
+      }
+      tallest = std::max(tallest, p.z);
+      for (int k = 0; k < 2; ++k) {  // streets run along whole multiples of the pitch
+        const double from_street = std::fabs(std::remainder(p[k], kBoxPitch));
+        ASSERT_GE(from_street, kBoxStreet / 2 - 1e-9);
+        ASSERT_LT(std::fabs(p[k]), kBoxCityHalf);
+      }
+    }
+  }
+  EXPECT_LE(tallest, kBoxTallest);
+  EXPECT_GT(tallest, 0.9 * kBoxTallest);
+}
+
+TEST(BoxCity, IsTheSameForTheSameSeedOnly) {
+  EXPECT_EQ(box_city(3).mesh.positions, box_city(3).mesh.positions);
+  EXPECT_NE(box_city(3).mesh.positions, box_city(4).mesh.positions);
 }
 
 TEST(GeneratedSphere, IsClosedAndHasTheSpheresVolume) {
