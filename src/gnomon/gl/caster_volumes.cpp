@@ -1,25 +1,102 @@
 #include <gnomon/gl/caster_volumes.h>
 
+#include <algorithm>
+
 #include <gnomon/gl/program.h>
 #include <gnomon/silhouette/light_sides.h>
+#include <gnomon/volume/layers.h>
 
 namespace gnomon::gl {
 namespace {
 
-void append_part(VolumeLists& lists, const GpuMesh& m, std::uint32_t p, const PartPlan& plan,
-                 const std::vector<std::int8_t>& sides, bool directional) {
-  const Part& part = m.parts.parts[p];
-  if (plan.by_polygon) {
-    for (const std::uint32_t t : part.triangles) {
-      if (casts(plan.casting, sides[t])) append_prism(lists, m.mesh, t, sides[t], directional, p);
-    }
-    return;
-  }
-  const std::span<const std::uint32_t> edges(m.part_edges.edge.data() + m.part_edges.first[p],
-                                             m.part_edges.first[p + 1] - m.part_edges.first[p]);
-  append_volume(lists, m.mesh, m.edges, edges, part.triangles, m.parts.part_of, p, sides,
-                directional, plan.casting, p);
+constexpr int kFewLayers = 63;  // fits every stencil's way of counting
+
+SideForm form_of(Primitives p) {
+  return p == Primitives::quads    ? SideForm::triangles
+         : p == Primitives::strips ? SideForm::strips
+                                   : SideForm::fans;
 }
+
+struct Builder {
+  CasterVolumes& v;
+  const GpuMesh& m;
+  bool directional;
+  SideForm form;
+  LoopScratch scratch{};
+  Silhouette silhouette{};
+  std::vector<std::uint32_t> chunk_of{};  // per triangle; of parts in several volumes
+
+  void note(bool polygon, std::uint32_t layers) {
+    v.polygon.push_back(polygon ? 1 : 0);
+    v.layers_of.push_back(layers);
+  }
+
+  std::uint32_t count_casting(std::span<const std::uint32_t> triangles, Casting casting) const {
+    std::uint32_t n = 0;
+    for (const std::uint32_t t : triangles) n += casts(casting, v.light_side[t]) ? 1 : 0;
+    return n;
+  }
+
+  void append_group(std::uint32_t p, std::span<const std::uint32_t> group_of, std::uint32_t group,
+                    std::span<const std::uint32_t> triangles, std::uint32_t layers) {
+    const std::span<const std::uint32_t> edges(m.part_edges.edge.data() + m.part_edges.first[p],
+                                               m.part_edges.first[p + 1] - m.part_edges.first[p]);
+    silhouette.clear();
+    find_part_silhouette(silhouette, m.edges, edges, group_of, group, v.light_side,
+                         v.plan[p].casting);
+    append_volume(v.lists, m.mesh, silhouette, triangles, v.light_side, directional,
+                  v.plan[p].casting, form, p, scratch);
+    note(false, layers);
+  }
+
+  void append_part(std::uint32_t p) {
+    const PartPlan& plan = v.plan[p];
+    const Part& part = m.parts.parts[p];
+    if (plan.by_polygon) {
+      for (const std::uint32_t t : part.triangles) {
+        if (!casts(plan.casting, v.light_side[t])) continue;
+        append_prism(v.lists, m.mesh, t, v.light_side[t], directional, p);
+        note(true, 1);
+      }
+      return;
+    }
+    const std::uint32_t layers = part.convex && plan.casting != Casting::all_triangles
+                                     ? 1
+                                     : count_casting(part.triangles, plan.casting);
+    if (v.most_layers == 0 || layers <= v.most_layers) {
+      append_group(p, m.parts.part_of, p, part.triangles, layers);
+      return;
+    }
+    chunk_of.resize(m.mesh.triangles.size(), 0);
+    std::vector<std::uint32_t> chunk;
+    std::uint32_t number = 0;
+    const auto flush = [&] {
+      if (!chunk.empty())
+        append_group(p, chunk_of, number, chunk, static_cast<std::uint32_t>(chunk.size()));
+      chunk.clear();
+    };
+    for (const std::uint32_t t : part.triangles) chunk_of[t] = 0;
+    for (const std::uint32_t t : part.triangles) {
+      if (!casts(plan.casting, v.light_side[t])) continue;
+      if (chunk.empty()) ++number;
+      chunk_of[t] = number;
+      chunk.push_back(t);
+      if (chunk.size() == v.most_layers) flush();
+    }
+    flush();
+  }
+
+  void append_regions(bool z_fail) {
+    for (std::uint32_t r = 0; r < v.regions.size(); ++r) {
+      if ((v.region_z_fail[r] != 0) != z_fail) continue;
+      const auto triangles = v.regions.triangles_of(r);
+      append_volume(v.lists, m.mesh, v.regions.silhouette_of(r), triangles, v.light_side,
+                    directional, Casting::all_triangles, form, m.parts.part_of[triangles[0]],
+                    scratch);
+      note(false, static_cast<std::uint32_t>(triangles.size()));
+    }
+  }
+};
 
 // The doubled vertices, extruded on the CPU by the same float operations as in the shader.
 std::vector<glm::vec4> extrude(const TriMesh& mesh, const Light& light) {
@@ -36,40 +113,73 @@ std::vector<glm::vec4> extrude(const TriMesh& mesh, const Light& light) {
 
 }  // namespace
 
-bool update_volumes(CasterVolumes& v, const GpuMesh& m, std::uint64_t mesh_version,
-                    const Light& light, const std::vector<PartPlan>& plan, const Method& method) {
-  if (v.array && v.light == light && v.plan == plan && v.extrusion == method.extrusion &&
-      v.primitives == method.primitives && v.mesh_version == mesh_version) {
+bool update_sides(CasterVolumes& v, const GpuMesh& m, std::uint64_t mesh_version,
+                  const Light& light, const std::vector<PartPlan>& plan) {
+  const bool same_light = v.array && v.light == light && v.mesh_version == mesh_version;
+  if (same_light && v.plan == plan) return false;
+  if (!same_light) v.light_side = light_sides(m.mesh, light);
+  v.light = light;
+  v.mesh_version = mesh_version;
+  v.plan = plan;
+  std::vector<std::uint8_t> casting(m.mesh.triangles.size(), 0);
+  std::vector<std::uint8_t> in_region(m.mesh.triangles.size(), 0);
+  bool regions = false;
+  for (std::size_t p = 0; p < plan.size(); ++p) {
+    regions |= plan[p].by_region;
+    for (const std::uint32_t t : m.parts.parts[p].triangles) {
+      casting[t] = casts(plan[p].casting, v.light_side[t]) ? 1 : 0;
+      if (plan[p].by_region) in_region[t] = casting[t];
+    }
+  }
+  v.regions = regions ? find_lit_regions(m.edges, v.light_side, in_region) : LitRegions{};
+  if (same_light && v.casting == casting) return true;
+  v.casting = std::move(casting);
+  v.layers = 0;
+  for (std::size_t p = 0; p < plan.size(); ++p) {
+    const Part& part = m.parts.parts[p];
+    if (part.convex && plan[p].casting != Casting::all_triangles) {
+      ++v.layers;
+    } else {
+      for (const std::uint32_t t : part.triangles) v.layers += v.casting[t];
+    }
+  }
+  // The sum holds for sure; where it is too much for a stencil, the grid says better.
+  if (v.layers > kFewLayers) {
+    v.layers = std::min(v.layers,
+                        layer_bound(m.mesh, layer_items(m.parts, v.light_side, v.casting), light));
+  }
+  return true;
+}
+
+bool update_lists(CasterVolumes& v, const GpuMesh& m, const Method& method, const NearClip& near,
+                  std::uint32_t most_layers, bool sides_changed) {
+  std::vector<std::uint8_t> region_z_fail(v.regions.size());
+  for (std::uint32_t r = 0; r < v.regions.size(); ++r)
+    region_z_fail[r] = may_any_shade_near(near, m.mesh, v.regions.triangles_of(r)) ? 1 : 0;
+  if (!sides_changed && v.region_z_fail == region_z_fail && v.extrusion == method.extrusion &&
+      v.primitives == method.primitives && v.most_layers == most_layers) {
     return false;
   }
-  v.light = light;
-  v.plan = plan;
+  v.region_z_fail = std::move(region_z_fail);
   v.extrusion = method.extrusion;
   v.primitives = method.primitives;
-  v.mesh_version = mesh_version;
+  v.most_layers = most_layers;
 
-  const std::vector<std::int8_t> sides = light_sides(m.mesh, light);
-  const bool directional = light.w == 0;
   v.lists = {};
   v.polygon.clear();
-  std::array<std::uint32_t, kListKinds> ends{};
+  v.layers_of.clear();
+  Builder builder{v, m, v.light.w == 0, form_of(method.primitives)};
   for (const bool z_fail : {true, false}) {
-    for (std::uint32_t p = 0; p < plan.size(); ++p) {
-      if (plan[p].z_fail != z_fail) continue;
-      append_part(v.lists, m, p, plan[p], sides, directional);
-      v.polygon.resize(v.lists.volumes.size(), plan[p].by_polygon ? 1 : 0);
+    for (std::uint32_t p = 0; p < v.plan.size(); ++p) {
+      if (!v.plan[p].by_region && v.plan[p].z_fail == z_fail) builder.append_part(p);
     }
-    if (!z_fail) continue;
-    v.z_fail_volumes = v.lists.volumes.size();
-    for (int k = 0; k < kListKinds; ++k)
-      ends[k] = static_cast<std::uint32_t>(v.lists.lists[k].size());
+    builder.append_regions(z_fail);
+    if (z_fail) v.z_fail_volumes = v.lists.volumes.size();
   }
   std::vector<std::uint32_t> indices;
   for (int k = 0; k < kListKinds; ++k) {
     const std::vector<std::uint32_t>& list = v.lists.lists[k];
     v.list_begin[k] = static_cast<std::uint32_t>(indices.size());
-    v.z_fail[k] = {v.list_begin[k], ends[k]};
-    v.z_pass[k] = {v.list_begin[k] + ends[k], static_cast<std::uint32_t>(list.size()) - ends[k]};
     indices.insert(indices.end(), list.begin(), list.end());
   }
   if (!v.array) {
@@ -83,7 +193,7 @@ bool update_volumes(CasterVolumes& v, const GpuMesh& m, std::uint64_t mesh_versi
                static_cast<GLsizeiptr>(indices.size() * sizeof(std::uint32_t)), indices.data(),
                GL_STREAM_DRAW);
   if (method.extrusion == Extrusion::cpu) {
-    const std::vector<glm::vec4> vertices = extrude(m.mesh, light);
+    const std::vector<glm::vec4> vertices = extrude(m.mesh, v.light);
     glBindBuffer(GL_ARRAY_BUFFER, v.extruded.id());
     glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(glm::vec4)),
                  vertices.data(), GL_STREAM_DRAW);
@@ -94,6 +204,17 @@ bool update_volumes(CasterVolumes& v, const GpuMesh& m, std::uint64_t mesh_versi
   glVertexAttribPointer(kVertex, 4, GL_FLOAT, GL_FALSE, 0, nullptr);
   glBindVertexArray(0);
   return true;
+}
+
+std::array<IndexRange, kListKinds> ranges_of(const CasterVolumes& v, std::size_t first,
+                                             std::size_t last) {
+  std::array<IndexRange, kListKinds> out{};
+  if (first == last) return out;
+  for (int k = 0; k < kListKinds; ++k) {
+    const IndexRange &a = v.lists.volumes[first].lists[k], &b = v.lists.volumes[last - 1].lists[k];
+    out[k] = {v.list_begin[k] + a.first, b.first + b.count - a.first};
+  }
+  return out;
 }
 
 }  // namespace gnomon::gl

@@ -12,6 +12,8 @@
 #include <gnomon/core/vec.h>
 #include <gnomon/gl/gpu_mesh.h>
 #include <gnomon/gl/method.h>
+#include <gnomon/volume/lit_regions.h>
+#include <gnomon/volume/near_clip.h>
 #include <gnomon/volume/volume_lists.h>
 
 namespace gnomon::gl {
@@ -20,6 +22,7 @@ namespace gnomon::gl {
 struct PartPlan {
   bool z_fail = false;
   bool by_polygon = false;
+  bool by_region = false;  // each connected lit region decides for itself between z-pass and z-fail
   Casting casting = Casting::all_triangles;
   bool operator==(const PartPlan&) const = default;
 };
@@ -28,24 +31,39 @@ struct CasterVolumes {
   // What they were made from.
   Light light{0, 0, 0, 0};  // in the mesh's coordinates
   std::vector<PartPlan> plan;
+  std::uint64_t mesh_version = 0;
   Extrusion extrusion = Extrusion::shader;
   Primitives primitives = Primitives::quads;
-  std::uint64_t mesh_version = 0;
+  std::uint32_t most_layers = 0;
+  std::vector<std::uint8_t> region_z_fail;  // per region
 
-  VolumeLists lists;               // z-fail volumes first
-  std::size_t z_fail_volumes = 0;  // of lists.volumes, the first ones
-  std::array<IndexRange, kListKinds> z_fail{},
-      z_pass{};  // in `indices`: the lists one after the other
-  std::array<std::uint32_t, kListKinds> list_begin{};  // where each list begins in `indices`
+  std::vector<std::int8_t> light_side;  // per triangle
+  std::vector<std::uint8_t> casting;    // per triangle: it counts
+  LitRegions regions;                   // of parts by region
+  int layers = 0;                       // no ray from the light crosses more casting triangles
+
+  VolumeLists lists;                                   // z-fail volumes first
+  std::size_t z_fail_volumes = 0;                      // of lists.volumes, the first ones
   std::vector<std::uint8_t> polygon;                   // per volume: of a single polygon
+  std::vector<std::uint32_t> layers_of;                // per volume: no ray enters it more often
+  std::array<std::uint32_t, kListKinds> list_begin{};  // of each list in `indices`
 
-  Buffer indices;
+  Buffer indices;   // the lists, one after the other
   Buffer extruded;  // Extrusion::cpu: the doubled vertices, those at w = 0 replaced
   VertexArray array;
 };
 
-// Makes `volumes` what the rest says, unless it is that already. True if it was made anew.
-bool update_volumes(CasterVolumes& volumes, const GpuMesh& mesh, std::uint64_t mesh_version,
-                    const Light& light, const std::vector<PartPlan>& plan, const Method& method);
+// Brings light sides, casting triangles, regions and layers up to date. True if they were not.
+bool update_sides(CasterVolumes& volumes, const GpuMesh& mesh, std::uint64_t mesh_version,
+                  const Light& light, const std::vector<PartPlan>& plan);
+
+// Brings lists and buffers up to date. `near`: in the mesh's coordinates, for parts by region.
+// `most_layers`: volumes of more triangles than that are split; 0: none is. True if they were not.
+bool update_lists(CasterVolumes& volumes, const GpuMesh& mesh, const Method& method,
+                  const NearClip& near, std::uint32_t most_layers, bool sides_changed);
+
+// The ranges of volumes first .. last - 1 in `indices`, list by list.
+std::array<IndexRange, kListKinds> ranges_of(const CasterVolumes& volumes, std::size_t first,
+                                             std::size_t last);
 
 }  // namespace gnomon::gl

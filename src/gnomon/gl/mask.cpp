@@ -6,6 +6,7 @@
 
 #include <gnomon/core/exact.h>
 #include <gnomon/gl/renderer_state.h>
+#include <gnomon/volume/near_cap.h>
 
 namespace gnomon::gl {
 namespace {
@@ -14,9 +15,28 @@ constexpr float kLarge = 16777216.0f;  // "Accelerated Stencil Shadow Extrusion"
 
 struct InstanceVolumes {
   const InstanceSlot* instance;
+  const GpuMesh* mesh;
   CasterVolumes* volumes;
   const LightPlan::OfInstance* plan;
+  // Per volume, the vertices of its near caps in State::near_caps: first[k] .. first[k + 1].
+  std::vector<std::uint32_t> near_caps;
 };
+
+// Volumes drawn together.
+struct Batch {
+  const InstanceVolumes* of = nullptr;
+  bool z_fail = false;
+  std::array<IndexRange, kListKinds> ranges{};
+  IndexRange near_caps{};
+};
+
+// Counts that fit: a stencil that wraps counts from 128 down to 1 and up to 255, so that what
+// rounding counts below 0 stays lit; one that saturates from 0 to 255. Where more layers may lie
+// over each other, groups are counted one after the other in seven bits from 64, and the eighth
+// keeps what any group shaded.
+constexpr int kWrapMiddle = 128, kWrapLayers = 127, kSaturateLayers = 255;
+constexpr int kGroupMiddle = 64, kGroupLayers = 63;
+constexpr GLuint kGroupBits = 0x7f, kShadedBit = 0x80;
 
 // Uniforms and vertices of one instance's volumes.
 void use_volumes(const Frame& frame, const LightPlan& plan, const InstanceVolumes& v) {
@@ -54,10 +74,14 @@ void draw_range(const Frame& frame, const IndexRange& range) {
 
 // Which lists a way of counting draws: z-fail the whole surface of the volume, z-pass its sides,
 // and the light caps of casters that are not seen themselves.
-void draw_lists(const Frame& frame, const std::array<IndexRange, kListKinds>& ranges, bool z_fail,
-                bool caps, bool turned) {
+void draw_lists(const Frame& frame, const Method& m,
+                const std::array<IndexRange, kListKinds>& ranges, bool z_fail, bool caps,
+                bool turned) {
   const int first = turned ? kSidesTurned : kSides;
-  draw_range(frame, ranges[first]);
+  draw_range(frame, ranges[first],
+             m.primitives == Primitives::strips ? GL_TRIANGLE_STRIP
+             : m.primitives == Primitives::fans ? GL_TRIANGLE_FAN
+                                                : GL_TRIANGLES);
   if (z_fail || caps) draw_range(frame, ranges[first + kLightCap]);
   if (z_fail) draw_range(frame, ranges[first + kDarkCap]);
 }
@@ -67,8 +91,54 @@ bool any(const std::array<IndexRange, kListKinds>& ranges, bool turned) {
   return ranges[first].count + ranges[first + kLightCap].count + ranges[first + kDarkCap].count > 0;
 }
 
-std::vector<InstanceVolumes> prepare(const Frame& frame, const LightPlan& plan) {
-  std::vector<InstanceVolumes> out;
+// The cut of every volume with the near plane, in clip space, z-pass's start ("Shadow Volumes
+// Revisited", 3.1).
+void make_near_caps(const Frame& frame, std::vector<InstanceVolumes>& all) {
+  std::vector<glm::vec4> vertices;
+  for (InstanceVolumes& v : all) {
+    const glm::dmat4 rows = glm::transpose(frame.camera->clip * v.instance->to_scene);
+    const CapPlane plane = cap_plane(rows[0], rows[1], rows[3], rows[3] + rows[2]);
+    v.near_caps = {static_cast<std::uint32_t>(vertices.size())};
+    for (const Volume& volume : v.volumes->lists.volumes) {
+      for (const int kind : {kLightCap, kLightCapTurned}) {
+        const IndexRange& range = volume.lists[kind];
+        const std::uint32_t* at = v.volumes->lists.lists[kind].data() + range.first;
+        for (std::uint32_t i = 0; i < range.count; i += 3) {
+          const auto p = [&](int k) { return v.mesh->mesh.positions[at[i + k] / 2]; };
+          const NearCap cap =
+              near_cap(p(0), p(1), p(2), kind == kLightCap ? -1 : 1, v.plan->light, plane);
+          for (int k = 2; k < cap.size; ++k) {
+            for (const Vec2& c : {cap.at[0], cap.at[k - 1], cap.at[k]})
+              vertices.emplace_back(glm::vec2(c), 0.0f, 1.0f);
+          }
+        }
+      }
+      v.near_caps.push_back(static_cast<std::uint32_t>(vertices.size()));
+    }
+  }
+  Renderer::State& state = *frame.state;
+  if (!state.near_cap_array) {
+    state.near_cap_array = VertexArray::make();
+    state.near_caps = Buffer::make();
+  }
+  glBindVertexArray(state.near_cap_array.id());
+  glBindBuffer(GL_ARRAY_BUFFER, state.near_caps.id());
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(glm::vec4)),
+               vertices.data(), GL_STREAM_DRAW);
+  glEnableVertexAttribArray(kVertex);
+  glVertexAttribPointer(kVertex, 4, GL_FLOAT, GL_FALSE, 0, nullptr);
+}
+
+struct Prepared {
+  std::vector<InstanceVolumes> all;
+  bool grouped = false;
+};
+
+Prepared prepare(const Frame& frame, const LightPlan& plan) {
+  Prepared out;
+  const Method& m = plan.method;
+  long long layers = 0;
+  std::vector<bool> changed;
   for (std::size_t i = 0; i < plan.instances.size(); ++i) {
     const LightPlan::OfInstance& of = plan.instances[i];
     if (of.parts.empty()) continue;
@@ -76,24 +146,110 @@ std::vector<InstanceVolumes> prepare(const Frame& frame, const LightPlan& plan) 
     const MeshSlot& mesh = frame.state->meshes[instance.mesh];
     if (instance.volumes.size() <= plan.number) instance.volumes.resize(plan.number + 1);
     CasterVolumes& v = instance.volumes[plan.number];
-    if (update_volumes(v, mesh.gpu, mesh.version, of.light, of.parts, plan.method))
-      ++frame.stats->rebuilt;
-    frame.stats->z_fail_volumes += static_cast<int>(v.z_fail_volumes);
-    frame.stats->z_pass_volumes += static_cast<int>(v.lists.volumes.size() - v.z_fail_volumes);
-    for (const std::uint8_t p : v.polygon) frame.stats->polygon_volumes += p;
-    out.push_back({&instance, &v, &of});
+    changed.push_back(update_sides(v, mesh.gpu, mesh.version, of.light, of.parts));
+    layers += v.layers;
+    out.all.push_back({&instance, &mesh.gpu, &v, &of, {}});
   }
+  const int most = m.ops == StencilOps::wrap ? kWrapLayers : kSaturateLayers;
+  out.grouped = m.mask == MaskIn::stencil && layers > most;
+  for (std::size_t i = 0; i < out.all.size(); ++i) {
+    InstanceVolumes& v = out.all[i];
+    if (update_lists(*v.volumes, *v.mesh, m, v.plan->near, out.grouped ? kGroupLayers : 0,
+                     changed[i])) {
+      ++frame.stats->rebuilt;
+    }
+    frame.stats->z_fail_volumes += static_cast<int>(v.volumes->z_fail_volumes);
+    frame.stats->z_pass_volumes +=
+        static_cast<int>(v.volumes->lists.volumes.size() - v.volumes->z_fail_volumes);
+    for (const std::uint8_t p : v.volumes->polygon) frame.stats->polygon_volumes += p;
+  }
+  if (m.count == Count::near_cap) make_near_caps(frame, out.all);
   return out;
+}
+
+Batch batch_of(const InstanceVolumes& v, std::size_t first, std::size_t last, bool z_fail) {
+  Batch b{&v, z_fail, ranges_of(*v.volumes, first, last), {}};
+  if (!v.near_caps.empty())
+    b.near_caps = {v.near_caps[first], v.near_caps[last] - v.near_caps[first]};
+  return b;
+}
+
+// All volumes, each instance's z-fail and z-pass ones at once; or in groups of few layers.
+std::vector<std::vector<Batch>> batches_of(const Prepared& prepared) {
+  std::vector<std::vector<Batch>> groups(1);
+  std::uint32_t layers = 0;
+  for (const InstanceVolumes& v : prepared.all) {
+    const std::size_t split = v.volumes->z_fail_volumes, end = v.volumes->lists.volumes.size();
+    for (const bool z_fail : {true, false}) {
+      std::size_t first = z_fail ? 0 : split;
+      const std::size_t last = z_fail ? split : end;
+      for (std::size_t k = first; prepared.grouped && k < last; ++k) {
+        if (layers + v.volumes->layers_of[k] > kGroupLayers) {
+          if (first < k) groups.back().push_back(batch_of(v, first, k, z_fail));
+          groups.emplace_back();
+          first = k;
+          layers = 0;
+        }
+        layers += v.volumes->layers_of[k];
+      }
+      if (first < last) groups.back().push_back(batch_of(v, first, last, z_fail));
+    }
+  }
+  return groups;
+}
+
+// What z-pass starts with: the count at the near plane. The pass says how it is counted.
+void draw_near_start(const Frame& frame, const LightPlan& plan, const Batch& b, Pass pass,
+                     float brightness) {
+  pass.depth_test = false;
+  const Programs& programs = frame.state->programs;
+  if (plan.method.count == Count::near_cap) {
+    if (b.near_caps.count == 0) return;
+    apply(pass, frame.state->support);
+    glUseProgram(programs.plain.id());
+    set(programs.plain.id(), "u_colour", glm::vec4(brightness));
+    glBindVertexArray(frame.state->near_cap_array.id());
+    glDrawArrays(GL_TRIANGLES, static_cast<GLint>(b.near_caps.first),
+                 static_cast<GLsizei>(b.near_caps.count));
+    ++frame.stats->volume_draws;
+    return;
+  }
+  // ZP+: the casters between near plane and light, thrown onto the near plane.
+  const glm::dmat4 rows = glm::transpose(frame.camera->clip * b.of->instance->to_scene);
+  Vec4 plane = rows[3] + rows[2];
+  double side = glm::dot(plane, b.of->plan->light);
+  if (side == 0) return;  // seen from the light the plane is a line
+  if (side < 0) {
+    plane = -plane;
+    side = -side;
+  }
+  pass.cull = GL_NONE;
+  apply(pass, frame.state->support);
+  const GLuint program = programs.near_light.id();
+  glUseProgram(program);
+  set(program, "u_colour", glm::vec4(brightness));
+  set(program, "u_clip", frame.clip_of(*b.of->instance));
+  set(program, "u_light", glm::vec4(b.of->plan->light));
+  set(program, "u_plane", glm::vec4(plane));
+  set(program, "u_light_side", static_cast<float>(side));
+  glBindVertexArray(b.of->volumes->array.id());
+  draw_range(frame, b.ranges[kLightCap]);
+  draw_range(frame, b.ranges[kLightCapTurned]);
+}
+
+bool starts_at_near_plane(const Method& m) {
+  return m.count == Count::near_cap || m.count == Count::zp_plus;
 }
 
 // --- stencil ---------------------------------------------------------------------------------
 
 // Face operations of one step: which faces count up and which down, where.
-Pass stencil_pass(const Method& m, bool z_fail, bool turned, int phase) {
+Pass stencil_pass(const Method& m, bool grouped, bool z_fail, bool turned, int phase) {
   Pass p;
   p.depth_func = GL_LESS;
   p.depth_clamp = m.far_plane == FarPlane::clamp;
   p.stencil_test = true;
+  if (grouped) p.stencil_write = kGroupBits;
   const GLenum up = m.ops == StencilOps::wrap ? GL_INCR_WRAP : GL_INCR;
   const GLenum down = m.ops == StencilOps::wrap ? GL_DECR_WRAP : GL_DECR;
   // z-pass: entering faces in front count up, leaving ones down. z-fail: entering faces behind
@@ -110,25 +266,61 @@ Pass stencil_pass(const Method& m, bool z_fail, bool turned, int phase) {
   return p;
 }
 
-void count_in_stencil(const Frame& frame, const LightPlan& plan,
-                      const std::vector<InstanceVolumes>& all) {
+void count_group(const Frame& frame, const LightPlan& plan, const std::vector<Batch>& batches,
+                 bool grouped) {
   const Method& m = plan.method;
   const int phases = m.passes == StencilPasses::culled ? 2 : 1;
   for (int phase = 0; phase < phases; ++phase) {
+    if (starts_at_near_plane(m)) {
+      for (const Batch& b : batches) {
+        // Seen from the light every face counts up; a near cap's clockwise slivers count down.
+        Pass p = stencil_pass(m, grouped, false, false, phase);
+        if (m.count == Count::zp_plus) p.back.depth_pass = p.front.depth_pass;
+        if (m.count == Count::zp_plus && phase == 1) continue;
+        draw_near_start(frame, plan, b, p, 1);
+      }
+    }
     for (const bool z_fail : {true, false}) {
       for (const bool turned : {false, true}) {
         bool applied = false;
-        for (const InstanceVolumes& v : all) {
-          const auto& ranges = z_fail ? v.volumes->z_fail : v.volumes->z_pass;
-          if (!any(ranges, turned)) continue;
-          if (!applied) apply(stencil_pass(m, z_fail, turned, phase), frame.state->support);
+        for (const Batch& b : batches) {
+          if (b.z_fail != z_fail || !any(b.ranges, turned)) continue;
+          if (!applied)
+            apply(stencil_pass(m, grouped, z_fail, turned, phase), frame.state->support);
           applied = true;
-          use_volumes(frame, plan, v);
-          draw_lists(frame, ranges, z_fail, v.plan->caps_in_front, turned);
+          use_volumes(frame, plan, *b.of);
+          draw_lists(frame, plan.method, b.ranges, z_fail, b.of->plan->caps_in_front, turned);
         }
       }
     }
   }
+}
+
+LitTest count_in_stencil(const Frame& frame, const LightPlan& plan, const Prepared& prepared) {
+  const auto groups = batches_of(prepared);
+  frame.stats->stencil_groups = static_cast<int>(groups.size());
+  for (const std::vector<Batch>& batches : groups) {
+    count_group(frame, plan, batches, prepared.grouped);
+    if (!prepared.grouped) continue;
+    Pass keep;  // where the group's count is above the middle, the shaded bit is set
+    keep.depth_test = false;
+    keep.stencil_test = true;
+    keep.stencil_func = GL_LESS;
+    keep.stencil_ref = kGroupMiddle | static_cast<GLint>(kShadedBit);
+    keep.stencil_read = kGroupBits;
+    keep.stencil_write = kShadedBit;
+    keep.front.depth_pass = keep.back.depth_pass = GL_REPLACE;
+    draw_rectangle(frame, keep, glm::vec4(0));
+    Pass restart = keep;
+    restart.stencil_func = GL_ALWAYS;
+    restart.stencil_ref = kGroupMiddle;
+    restart.stencil_write = kGroupBits;
+    draw_rectangle(frame, restart, glm::vec4(0));
+    frame.stats->other_rectangles += 2;
+  }
+  if (prepared.grouped) return {GL_GEQUAL, 0, kShadedBit, GL_INVERT, kShadedBit};
+  if (plan.method.ops == StencilOps::wrap) return {GL_GEQUAL, kWrapMiddle, 0xff, GL_INCR, 0xff};
+  return {GL_GEQUAL, 0, 0xff, GL_INCR, 0xff};
 }
 
 // --- alpha and screen ------------------------------------------------------------------------
@@ -152,38 +344,75 @@ void set_brightness(const Frame& frame, const LightPlan& plan, float brightness)
 
 // One volume after the other: what enters first, then what leaves, so that the clamp at 1 (maximum:
 // the eight bits) loses nothing (Roettger et al., 4.2; docs/methods.md).
-void count_by_blending(const Frame& frame, const LightPlan& plan,
-                       const std::vector<InstanceVolumes>& all) {
+void count_by_blending(const Frame& frame, const LightPlan& plan, const Prepared& prepared) {
   const Method& m = plan.method;
   const bool doubling = m.arithmetic == Arithmetic::doubling;
-  for (const InstanceVolumes& v : all) {
-    use_volumes(frame, plan, v);
+  for (const InstanceVolumes& v : prepared.all) {
     for (std::size_t k = 0; k < v.volumes->lists.volumes.size(); ++k) {
       const bool z_fail = k < v.volumes->z_fail_volumes;
-      const Volume& volume = v.volumes->lists.volumes[k];
-      std::array<IndexRange, kListKinds> ranges = volume.lists;
-      for (int i = 0; i < kListKinds; ++i) ranges[i].first += v.volumes->list_begin[i];
+      const Batch b = batch_of(v, k, k + 1, z_fail);
       for (const bool first : {true, false}) {
         const Blend& blend = first == doubling ? kDouble : kHalve;
+        Pass p;
+        p.depth_func = z_fail ? GL_GEQUAL : GL_LESS;
+        p.depth_clamp = m.far_plane == FarPlane::clamp;
+        p.blend = true;
+        p.source = blend.source;
+        p.destination = blend.destination;
+        p.colour = mask_channels(m);
+        if (starts_at_near_plane(m) && (first || m.count == Count::near_cap)) {
+          p.cull = first ? GL_BACK : GL_FRONT;  // slivers of a near cap that are turned leave
+          draw_near_start(frame, plan, b, p, blend.brightness);
+        }
+        use_volumes(frame, plan, v);
         set_brightness(frame, plan, blend.brightness);
         for (const bool turned : {false, true}) {
-          if (!any(ranges, turned)) continue;
-          Pass p;
-          p.depth_func = z_fail ? GL_GEQUAL : GL_LESS;
-          p.depth_clamp = m.far_plane == FarPlane::clamp;
-          p.blend = true;
-          p.source = blend.source;
-          p.destination = blend.destination;
-          p.colour = mask_channels(m);
+          if (!any(b.ranges, turned)) continue;
           // z-pass: entering faces first. z-fail: leaving faces first.
           const bool draw_enter = first != z_fail;
           p.cull = draw_enter != turned ? GL_BACK : GL_FRONT;
           apply(p, frame.state->support);
-          draw_lists(frame, ranges, z_fail, v.plan->caps_in_front, turned);
+          draw_lists(frame, m, b.ranges, z_fail, v.plan->caps_in_front, turned);
         }
       }
     }
   }
+}
+
+// Half floats count without a clamp, from 2^-14 to 2^15 and to infinity, where a count would be
+// lost: the mask is looked through for such values. Zero is what underflow leaves.
+Result<bool> check_half_floats(const Frame& frame, const Method& m, const Target& target) {
+  Renderer::State& state = *frame.state;
+  Texture2D copy = Texture2D::make();
+  glActiveTexture(GL_TEXTURE3);
+  glBindTexture(GL_TEXTURE_2D, copy.id());
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, target.format.width, target.format.height, 0, GL_RGBA,
+               GL_HALF_FLOAT, nullptr);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  glCopyTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, 0, 0, target.format.width, target.format.height);
+  Pass p;
+  p.depth_test = false;
+  apply(p, state.support);
+  const GLuint program = state.programs.overflow.id();
+  glUseProgram(program);
+  set(program, "u_image", 3);
+  set(program, "u_channel",
+      m.mask == MaskIn::alpha ? glm::vec4(0, 0, 0, 1) : glm::vec4(1, 0, 0, 0));
+  set(program, "u_depth", -1.0f);
+  glBindVertexArray(state.empty.id());
+  if (!state.query) state.query = Query::make();
+  glBeginQuery(GL_ANY_SAMPLES_PASSED, state.query.id());
+  glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+  glEndQuery(GL_ANY_SAMPLES_PASSED);
+  GLuint lost = 0;
+  glGetQueryObjectuiv(state.query.id(), GL_QUERY_RESULT, &lost);
+  ++frame.stats->other_rectangles;
+  if (lost == 0) return true;
+  return Error{
+      "More shadows lie over each other in a pixel than a half-float mask can count (about 14): "
+      "take "
+      "--method stencil, which counts any number."};
 }
 
 void rectangle_blend(const Frame& frame, const Method& m, GLenum source, GLenum destination,
@@ -202,6 +431,12 @@ void rectangle_blend(const Frame& frame, const Method& m, GLenum source, GLenum 
 // Three states to two (Roettger et al., 4.3 and 4.4; TECHNIQUES 6).
 void normalise(const Frame& frame, const Method& m) {
   const bool attenuated = m.shadows == Shadows::attenuated;
+  if (m.half_float) {
+    // Powers of two without a clamp: bounded from both sides first.
+    const bool maximum = m.arithmetic == Arithmetic::maximum;
+    if (!maximum) rectangle_blend(frame, m, GL_ONE, GL_ONE, 0.25f, GL_MAX);
+    rectangle_blend(frame, m, GL_ONE, GL_ONE, maximum ? 1.0f : 0.5f, GL_MIN);
+  }
   if (m.arithmetic == Arithmetic::maximum) {
     rectangle_blend(frame, m, GL_ONE, GL_ONE, 0.5f, GL_MAX);  // 1/2 in shadow, 1 where lit
     if (!attenuated) {  // beyond the paper: 0 and 1, to add a light
@@ -223,7 +458,7 @@ void normalise(const Frame& frame, const Method& m) {
 
 // Their unlit side is in shadow though nothing of theirs counts (DEFINITIONS, "The prism and the
 // count"): drawn again where they are seen, they add one.
-void count_unlit_receivers(const Frame& frame, const LightPlan& plan) {
+void count_unlit_receivers(const Frame& frame, const LightPlan& plan, bool grouped) {
   const Method& m = plan.method;
   for (std::size_t i = 0; i < plan.instances.size(); ++i) {
     const InstanceSlot& instance = frame.state->instances[i];
@@ -248,7 +483,11 @@ void count_unlit_receivers(const Frame& frame, const LightPlan& plan) {
       float brightness = 1;
       if (m.mask == MaskIn::stencil) {
         p.stencil_test = true;
-        p.front.depth_pass = p.back.depth_pass = GL_INCR;
+        if (grouped) {  // the shaded bit says it all
+          p.stencil_ref = static_cast<GLint>(kShadedBit);
+          p.stencil_write = kShadedBit;
+        }
+        p.front.depth_pass = p.back.depth_pass = grouped ? GL_REPLACE : GL_INCR;
       } else {
         const Blend& blend = m.arithmetic == Arithmetic::doubling ? kDouble : kHalve;
         p.blend = true;
@@ -278,12 +517,12 @@ void count_unlit_receivers(const Frame& frame, const LightPlan& plan) {
   }
 }
 
-void clear_mask(const Frame& frame, const Method& m) {
+void clear_mask(const Frame& frame, const Method& m, bool grouped) {
   Pass p;
   p.depth_test = false;
   if (m.mask == MaskIn::stencil) {
     apply(p, frame.state->support);
-    glClearStencil(0);
+    glClearStencil(grouped ? kGroupMiddle : m.ops == StencilOps::wrap ? kWrapMiddle : 0);
     glClear(GL_STENCIL_BUFFER_BIT);
     return;
   }
@@ -296,31 +535,50 @@ void clear_mask(const Frame& frame, const Method& m) {
 
 }  // namespace
 
-void draw_light_mask(const Frame& frame, const LightPlan& plan) {
-  const std::vector<InstanceVolumes> volumes = prepare(frame, plan);
-  clear_mask(frame, plan.method);
-  if (plan.method.mask == MaskIn::stencil) {
-    frame.stats->stencil_groups = 1;
-    count_in_stencil(frame, plan, volumes);
-    count_unlit_receivers(frame, plan);
-    return;
+void draw_where_lit(Pass& p, const LitTest& lit, bool once) {
+  p.stencil_test = true;
+  p.stencil_func = lit.func;
+  p.stencil_ref = lit.ref;
+  p.stencil_read = lit.read;
+  p.stencil_write = lit.write;
+  p.front.depth_pass = p.back.depth_pass = once ? lit.once : GL_KEEP;
+}
+
+void draw_where_shadowed(Pass& p, const LitTest& lit) {
+  draw_where_lit(p, lit, false);
+  p.stencil_func = GL_LESS;  // the opposite of GL_GEQUAL
+}
+
+Result<LitTest> draw_light_mask(const Frame& frame, const LightPlan& plan, const Target* target) {
+  const Method& m = plan.method;
+  const Prepared prepared = prepare(frame, plan);
+  clear_mask(frame, m, prepared.grouped);
+  if (m.mask == MaskIn::stencil) {
+    const LitTest lit = count_in_stencil(frame, plan, prepared);
+    count_unlit_receivers(frame, plan, prepared.grouped);
+    return lit;
   }
-  count_by_blending(frame, plan, volumes);
-  count_unlit_receivers(frame, plan);
-  normalise(frame, plan.method);
+  count_by_blending(frame, plan, prepared);
+  count_unlit_receivers(frame, plan, false);
+  if (m.half_float) {
+    Result<bool> good = check_half_floats(frame, m, *target);
+    if (!good) return good.error();
+  }
+  normalise(frame, m);
+  return LitTest{};
 }
 
 void draw_volume_faces(const Frame& frame, const LightPlan& plan, const Pass& pass,
                        const glm::vec4& colour) {
-  const std::vector<InstanceVolumes> volumes = prepare(frame, plan);
-  apply(pass, frame.state->support);
-  for (const InstanceVolumes& v : volumes) {
-    use_volumes(frame, plan, v);
-    set(frame.state->programs.volume[static_cast<std::size_t>(plan.method.extrusion)].id(),
-        "u_colour", colour);
-    for (const auto* ranges : {&v.volumes->z_fail, &v.volumes->z_pass}) {
-      draw_range(frame, (*ranges)[kSides]);
-      draw_range(frame, (*ranges)[kSidesTurned]);
+  const Prepared prepared = prepare(frame, plan);
+  for (const std::vector<Batch>& batches : batches_of(prepared)) {
+    for (const Batch& b : batches) {
+      apply(pass, frame.state->support);
+      use_volumes(frame, plan, *b.of);
+      set(frame.state->programs.volume[static_cast<std::size_t>(plan.method.extrusion)].id(),
+          "u_colour", colour);
+      draw_lists(frame, plan.method, b.ranges, false, false, false);
+      draw_lists(frame, plan.method, b.ranges, false, false, true);
     }
   }
 }

@@ -79,6 +79,7 @@ std::string describe(const Method& m) {
     add(name_of(m.ops));
   } else {
     add(name_of(m.arithmetic));
+    if (m.half_float) add("half floats");
   }
   add("volumes of " + std::string(name_of(m.volumes)));
   add("far plane " + std::string(name_of(m.far_plane)));
@@ -157,16 +158,20 @@ Result<Method> decide(Method m, const Situation& s, const Capabilities& c) {
 
   // Volumes.
   if (!stencil) {
-    // The clamp at 1 loses counts unless every draw has one entry and one exit on each view ray.
-    if (m.volumes == VolumesOf::caster && !s.all_convex) {
+    // The clamp at 1 loses counts unless every draw has one entry and one exit on each view ray;
+    // powers of two in half floats count from -12 to 17 without one.
+    m.half_float = !s.all_convex || m.volumes == VolumesOf::polygon || m.count == Count::mixed;
+    if (m.volumes == VolumesOf::automatic) m.volumes = VolumesOf::caster;
+    if (m.half_float && !c.float_colour) {
       return refuse(
-          "Doubling and halving loses counts where a view ray enters one volume twice, and some "
-          "casters are not convex: take --volumes auto, which draws those polygon by polygon.");
+          "Doubling and halving in 8 bits loses counts where a view ray enters one volume twice or "
+          "volumes touch, and some casters are not convex; this OpenGL draws no half floats, which "
+          "would hold them. Take --method stencil.");
     }
-    if (m.count == Count::mixed) {
+    if (m.half_float && m.samples > 1) {
       return refuse(
-          "The volume of one lit region of a caster can be entered twice on a view ray, which "
-          "doubling and halving cannot count: take --count auto or the stencil.");
+          "Casters that are not convex need a mask in half floats, whose overflow is looked for "
+          "pixel by pixel: take --samples 1, or --method stencil.");
     }
   } else if (m.volumes == VolumesOf::automatic) {
     m.volumes = VolumesOf::caster;

@@ -30,16 +30,6 @@ bool overlap(const Box3& box, const Vec3& lo, const Vec3& hi) {
          box.lo.z <= hi.z && lo.z <= box.hi.z;
 }
 
-std::array<Vec3, 8> corners_of(const Vec3& lo, const Vec3& hi, const glm::dmat4& to_scene) {
-  std::array<Vec3, 8> out;
-  for (int i = 0; i < 8; ++i) {
-    const Vec3 p((i & 1) != 0 ? hi.x : lo.x, (i & 2) != 0 ? hi.y : lo.y,
-                 (i & 4) != 0 ? hi.z : lo.z);
-    out[i] = Vec3(to_scene * point(p));
-  }
-  return out;
-}
-
 bool along_view(const Camera& camera, const Light& light) {
   return camera.eye.w == 0 && light.w == 0 &&
          glm::cross(Vec3(camera.eye), Vec3(light)) == Vec3(0.0);
@@ -64,7 +54,6 @@ Result<LightPlan> plan_light(const Frame& frame, const Light& light, std::uint32
   s.infinite_view = camera.infinite;
   s.lights = target.lights;
 
-  const NearClip near = near_clip_volume(camera.near_rectangle, snapped(light));
   plan.instances.resize(state.instances.size());
   std::vector<std::vector<bool>> shades(state.instances.size());
   for (std::size_t i = 0; i < state.instances.size(); ++i) {
@@ -81,14 +70,15 @@ Result<LightPlan> plan_light(const Frame& frame, const Light& light, std::uint32
       for (Vec3& p : rectangle) p = Vec3(to_mesh * point(p));
     }
     const Box3 near_box = box_of(rectangle);
+    out.near = near_clip_volume(rectangle, out.light);
     const Box3 light_box{Vec3(out.light), Vec3(out.light)};
     out.parts.resize(mesh.parts.parts.size());
     shades[i].resize(mesh.parts.parts.size());
     for (std::size_t p = 0; p < mesh.parts.parts.size(); ++p) {
       const Part& part = mesh.parts.parts[p];
       PartPlan& pp = out.parts[p];
-      shades[i][p] = moved ? may_shade_near(near, corners_of(part.lo, part.hi, instance.to_scene))
-                           : may_shade_near(near, part.lo, part.hi);
+      shades[i][p] = may_shade_near(out.near, part.lo, part.hi) &&
+                     may_any_shade_near(out.near, mesh.mesh, part.triangles);
       if (shades[i][p]) s.near_shaded = true;
       if (mesh.part_seen[p] == 0) out.caps_in_front = true;
       // A closed surface that is drawn as a whole: everything seen lies outside it, as does the
@@ -100,8 +90,7 @@ Result<LightPlan> plan_light(const Frame& frame, const Light& light, std::uint32
         pp.casting =
             part.convex && part.winding < 0 ? Casting::positive_sides : Casting::negative_sides;
       }
-      pp.by_polygon = !(half && part.convex);
-      if (pp.by_polygon) s.all_convex = false;
+      if (!half || !part.convex) s.all_convex = false;
     }
   }
   Result<Method> decided = decide(wanted, s, state.capabilities);
@@ -111,10 +100,10 @@ Result<LightPlan> plan_light(const Frame& frame, const Light& light, std::uint32
   for (std::size_t i = 0; i < plan.instances.size(); ++i) {
     for (std::size_t p = 0; p < plan.instances[i].parts.size(); ++p) {
       PartPlan& pp = plan.instances[i].parts[p];
-      if (m.volumes == VolumesOf::caster) pp.by_polygon = false;
-      if (m.volumes == VolumesOf::polygon) pp.by_polygon = true;
-      pp.z_fail = m.count == Count::z_fail ||
-                  ((m.count == Count::automatic || m.count == Count::mixed) && shades[i][p]);
+      pp.by_polygon = m.volumes == VolumesOf::polygon;
+      // A part that nothing of shades the near rectangle needs no closer look.
+      pp.by_region = m.count == Count::mixed && shades[i][p];
+      pp.z_fail = m.count == Count::z_fail || (m.count == Count::automatic && shades[i][p]);
     }
   }
   return plan;

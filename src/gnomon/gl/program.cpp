@@ -97,6 +97,7 @@ Result<Programs> compile_programs() {
        "#define MASKED\n"},
       {&p.rectangle, "rectangle", kRectangleVertex, kColourFragment, ""},
       {&p.texture, "texture", kRectangleVertex, kTextureFragment, ""},
+      {&p.overflow, "overflow", kRectangleVertex, kOverflowFragment, ""},
       {&p.plain, "plain", kPlainVertex, kColourFragment, ""},
   };
   for (const Item& item : items) {

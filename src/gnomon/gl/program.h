@@ -36,6 +36,7 @@ struct Programs {
   ProgramHandle masked_surface;  // the same, times a mask in a texture
   ProgramHandle rectangle;       // one colour over the viewport, at the near plane
   ProgramHandle texture;         // a texture over the viewport
+  ProgramHandle overflow;        // texels that half floats lost; others are discarded
   ProgramHandle plain;           // vertices that are in clip space already, one colour
 };
 Result<Programs> compile_programs();

@@ -53,19 +53,19 @@ TargetFormat format_of(const Camera& camera, const Method& m, double scale) {
   f.height = std::max(1, static_cast<int>(std::ceil(camera.height * scale)));
   f.samples = m.samples;
   f.stencil = m.mask == MaskIn::stencil;
+  f.half_float = m.half_float;
   return f;
 }
 
 // The mask from where its method keeps it to all colours of the bound framebuffer: 1 where lit, and
 // `shadow` where not.
-void mask_to_colour(const Frame& frame, const Method& m, float shadow) {
+void mask_to_colour(const Frame& frame, const Method& m, const LitTest& lit, float shadow) {
   Pass p;
   p.depth_test = false;
   p.colour = {true, true, true, false};
   if (m.mask == MaskIn::stencil) {
     draw_rectangle(frame, p, glm::vec4(1));
-    p.stencil_test = true;
-    p.stencil_func = GL_NOTEQUAL;
+    draw_where_shadowed(p, lit);
     draw_rectangle(frame, p, glm::vec4(shadow));
     frame.stats->other_rectangles += 2;
   } else if (m.mask == MaskIn::alpha) {
@@ -88,9 +88,11 @@ Result<Target> low_mask(const Frame& frame, const LightPlan& plan) {
   Target target = std::move(made).value();
   clear(frame, target, Vec3(0));
   draw_depth(frame, first_pass(false));
-  draw_light_mask(frame, plan);
+  const Result<LitTest> lit = draw_light_mask(frame, plan, &target);
+  if (!lit) return lit.error();
   if (plan.method.mask == MaskIn::stencil)
-    mask_to_colour(frame, plan.method, plan.method.shadows == Shadows::attenuated ? 0.5f : 0.0f);
+    mask_to_colour(frame, plan.method, lit.value(),
+                   plan.method.shadows == Shadows::attenuated ? 0.5f : 0.0f);
   return target;
 }
 
@@ -119,13 +121,13 @@ Result<bool> add_lights(const Frame& frame, const Target& picture,
       lighting.mask_channel = channel_of(m);
       draw_lit(frame, add, lighting);
     } else if (m.mask == MaskIn::stencil) {
-      draw_light_mask(frame, plan);
-      add.stencil_test = true;
-      add.stencil_func = GL_EQUAL;
-      add.front.depth_pass = add.back.depth_pass = m.keep_double_blending ? GL_KEEP : GL_INCR;
+      const Result<LitTest> lit = draw_light_mask(frame, plan, &picture);
+      if (!lit) return lit.error();
+      draw_where_lit(add, lit.value(), !m.keep_double_blending);
       draw_lit(frame, add, lighting);
     } else if (m.mask == MaskIn::alpha) {
-      draw_light_mask(frame, plan);
+      const Result<LitTest> lit = draw_light_mask(frame, plan, &picture);
+      if (!lit) return lit.error();
       add.source = GL_DST_ALPHA;
       draw_lit(frame, add, lighting);
     } else {
@@ -138,7 +140,8 @@ Result<bool> add_lights(const Frame& frame, const Target& picture,
         screen = std::move(made).value();
       }
       bind(*screen);
-      draw_light_mask(frame, plan);
+      const Result<LitTest> lit = draw_light_mask(frame, plan, &*screen);
+      if (!lit) return lit.error();
       draw_background(frame, Vec3(0));
       Pass multiply = colour_pass(GL_EQUAL);
       multiply.blend = true;
@@ -185,7 +188,8 @@ Result<bool> draw_paper(const Frame& frame, const Target& picture, const LightSo
     draw_background(frame, options.background);
   } else if (m.mask == MaskIn::screen) {
     draw_depth(frame, first_pass(false));
-    draw_light_mask(frame, plan);
+    const Result<LitTest> lit = draw_light_mask(frame, plan, &picture);
+    if (!lit) return lit.error();
     draw_background(frame, options.background);
     Pass multiply = colour_pass(GL_EQUAL);
     multiply.blend = true;
@@ -194,7 +198,8 @@ Result<bool> draw_paper(const Frame& frame, const Target& picture, const LightSo
     draw_lit(frame, multiply, lighting);
   } else {
     draw_lit(frame, first_pass(true), lighting);
-    draw_light_mask(frame, plan);
+    const Result<LitTest> lit = draw_light_mask(frame, plan, &picture);
+    if (!lit) return lit.error();
     if (m.mask == MaskIn::alpha) {
       apply_mask.source = GL_ZERO;
       apply_mask.destination = GL_DST_ALPHA;
@@ -202,8 +207,7 @@ Result<bool> draw_paper(const Frame& frame, const Target& picture, const LightSo
     } else {
       apply_mask.source = GL_DST_COLOR;
       apply_mask.destination = GL_ZERO;
-      apply_mask.stencil_test = true;
-      apply_mask.stencil_func = GL_NOTEQUAL;
+      draw_where_shadowed(apply_mask, lit.value());
       draw_rectangle(frame, apply_mask, glm::vec4(attenuated ? 0.5f : 0.0f));
     }
     ++frame.stats->rectangles;
@@ -317,6 +321,7 @@ Result<Image> Renderer::render(const Camera& camera, std::span<const LightSource
     plans.push_back(std::move(plan).value());
   }
   if (!plans.empty()) counted.method = plans.front().method;
+  for (const LightPlan& plan : plans) wanted.half_float |= plan.method.half_float;
   Result<Target> made = make_target(format_of(camera, wanted, 1.0));
   if (!made) return made.error();
   const Target& picture = made.value();
@@ -370,8 +375,9 @@ Result<ShadowMask> Renderer::mask(const Camera& camera, const Light& light, cons
     draw_texture(frame, copy, low.value(), channel_of(m));
     ++counted.other_rectangles;
   } else {
-    draw_light_mask(frame, plan);
-    mask_to_colour(frame, m, m.shadows == Shadows::attenuated ? 0.5f : 0.0f);
+    const Result<LitTest> lit = draw_light_mask(frame, plan, &picture);
+    if (!lit) return lit.error();
+    mask_to_colour(frame, m, lit.value(), m.shadows == Shadows::attenuated ? 0.5f : 0.0f);
   }
   // Alpha: where there is a sample.
   Pass alpha;
@@ -421,7 +427,10 @@ Result<FrameStats> Renderer::draw_mask(const Camera& camera, const Light& light,
   if (!plan) return plan.error();
   counted.method = plan.value().method;
   const StateGuard guard(state_->support);
-  draw_light_mask(frame, plan.value());
+  const Result<LitTest> lit = draw_light_mask(frame, plan.value(), nullptr);
+  if (!lit) return lit.error();
+  counted.lit_at_most = lit.value().ref;
+  counted.lit_bits = lit.value().read;
   return counted;
 }
 

@@ -58,7 +58,8 @@ struct LightPlan {
   std::uint32_t number = 0;  // which of the frame's lights
   Method method;             // decided
   struct OfInstance {
-    Light light;  // in the mesh's coordinates
+    Light light{0, 0, 1, 0};  // in the mesh's coordinates
+    NearClip near;            // likewise
     std::vector<PartPlan> parts;
     bool caps_in_front = false;  // z-pass must count caps too: some caster is not drawn
   };
@@ -92,10 +93,23 @@ void draw_rectangle(const Frame& frame, const Pass& pass, const glm::vec4& colou
 void draw_texture(const Frame& frame, const Pass& pass, const Target& from,
                   const std::optional<glm::vec4>& channel);
 
+// What tells lit from shadow in the stencil: the state of a pass that draws where it is lit.
+struct LitTest {
+  GLenum func = GL_GEQUAL;
+  GLint ref = 0;
+  GLuint read = 0xff;
+  // Where a light is added once and no more though two fragments share a depth (the paper's INCR).
+  GLenum once = GL_INCR;
+  GLuint write = 0xff;
+};
+void draw_where_lit(Pass& pass, const LitTest& lit, bool once);
+void draw_where_shadowed(Pass& pass, const LitTest& lit);
+
 // The mask of one light into the bound framebuffer, whose depth is there. Its place is cleared
-// first. Stencil: not 0 in shadow. Alpha and screen: normalised to 0 in shadow, 1 where lit
-// (254/255); attenuated: to 1/2 and 1.
-void draw_light_mask(const Frame& frame, const LightPlan& plan);
+// first. Alpha and screen: normalised to 0 in shadow, 1 where lit (254/255); attenuated: to 1/2 and
+// 1. Error: more layers than half floats count. `colour`: the texture that a half-float mask lives
+// in.
+Result<LitTest> draw_light_mask(const Frame& frame, const LightPlan& plan, const Target* target);
 
 // The volumes alone, by the pass and colour given: to be looked at.
 void draw_volume_faces(const Frame& frame, const LightPlan& plan, const Pass& pass,

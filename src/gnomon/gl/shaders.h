@@ -186,6 +186,19 @@ void main() {
 }
 )";
 
+// Half floats at the ends of their normal range have lost a count, or are about to.
+inline constexpr const char* kOverflowFragment = R"(
+in vec2 v_texture;
+uniform sampler2D u_image;
+uniform vec4 u_channel;
+out vec4 o_colour;
+void main() {
+  float value = dot(texture(u_image, v_texture), u_channel);
+  if (value >= 6.2e-5 && value <= 32768.0) discard;
+  o_colour = vec4(1.0);
+}
+)";
+
 inline constexpr const char* kPlainVertex = R"(
 in vec4 a_vertex;
 void main() { gl_Position = a_vertex; }

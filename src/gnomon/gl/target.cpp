@@ -26,8 +26,8 @@ Result<Target> make_target(const TargetFormat& f, const Target* depth_of) {
   } else {
     t.colour = Texture2D::make();
     glBindTexture(GL_TEXTURE_2D, t.colour.id());
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, f.width, f.height, 0, GL_RGBA, GL_UNSIGNED_BYTE,
-                 nullptr);
+    glTexImage2D(GL_TEXTURE_2D, 0, f.half_float ? GL_RGBA16F : GL_RGBA8, f.width, f.height, 0,
+                 GL_RGBA, f.half_float ? GL_HALF_FLOAT : GL_UNSIGNED_BYTE, nullptr);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
@@ -82,7 +82,15 @@ Image read_colours(const Target& target) {
   }
   glBindFramebuffer(GL_READ_FRAMEBUFFER, from);
   glPixelStorei(GL_PACK_ALIGNMENT, 4);
-  glReadPixels(0, 0, f.width, f.height, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
+  if (f.half_float) {
+    std::vector<float> values(image.rgba.size());
+    glReadPixels(0, 0, f.width, f.height, GL_RGBA, GL_FLOAT, values.data());
+    std::transform(values.begin(), values.end(), image.rgba.begin(), [](float v) {
+      return static_cast<std::uint8_t>(std::clamp(v, 0.0f, 1.0f) * 255.0f + 0.5f);
+    });
+  } else {
+    glReadPixels(0, 0, f.width, f.height, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
+  }
   const std::size_t row = std::size_t(f.width) * 4;
   for (int y = 0; y < f.height / 2; ++y) {
     std::swap_ranges(image.rgba.begin() + y * row, image.rgba.begin() + (y + 1) * row,

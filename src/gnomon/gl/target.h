@@ -10,7 +10,8 @@ namespace gnomon::gl {
 struct TargetFormat {
   int width = 0, height = 0;
   int samples = 1;
-  bool stencil = true;  // 24-bit depth with 8-bit stencil; without: 24-bit depth alone
+  bool half_float = false;  // 16-bit floats instead of 8-bit colours
+  bool stencil = true;      // 24-bit depth with 8-bit stencil; without: 24-bit depth alone
 };
 
 struct Target {

@@ -46,6 +46,19 @@ void end_volume(VolumeLists& lists, Volume v) {
   lists.volumes.push_back(v);
 }
 
+void push_loops(std::vector<std::uint32_t>& list, const Loops& loops, SideForm form) {
+  for (std::size_t k = 0; k < loops.size(); ++k) {
+    const std::span<const std::uint32_t> loop = loops.loop(k);
+    if (form == SideForm::fans) list.push_back(far_vertex(loop[0]));
+    for (std::size_t i = 0; i <= loop.size(); ++i) {
+      const std::uint32_t v = loop[i % loop.size()];
+      if (form == SideForm::strips) list.push_back(far_vertex(v));
+      list.push_back(near_vertex(v));
+    }
+    list.push_back(kRestart);
+  }
+}
+
 }  // namespace
 
 EdgesOfParts edges_of_parts(const EdgeTable& edges, const std::vector<std::uint32_t>& part_of,
@@ -62,12 +75,10 @@ EdgesOfParts edges_of_parts(const EdgeTable& edges, const std::vector<std::uint3
   return out;
 }
 
-void append_volume(VolumeLists& lists, const TriMesh& mesh, const EdgeTable& table,
-                   std::span<const std::uint32_t> edges, std::span<const std::uint32_t> triangles,
-                   std::span<const std::uint32_t> group_of, std::uint32_t group,
-                   std::span<const std::int8_t> sides, bool directional, Casting casting,
-                   std::uint32_t caster) {
-  Volume volume = begin_volume(lists, caster);
+void find_part_silhouette(Silhouette& out, const EdgeTable& table,
+                          std::span<const std::uint32_t> edges,
+                          std::span<const std::uint32_t> group_of, std::uint32_t group,
+                          std::span<const std::int8_t> sides, Casting casting) {
   for (const std::uint32_t k : edges) {
     std::int32_t multiplicity = 0;
     for (std::uint32_t i = table.first[k]; i < table.first[k + 1]; ++i) {
@@ -76,13 +87,26 @@ void append_volume(VolumeLists& lists, const TriMesh& mesh, const EdgeTable& tab
       if (group_of[t] != group || !casts(casting, sides[t])) continue;
       multiplicity += backward ? -sides[t] : sides[t];
     }
-    if (multiplicity == 0) continue;
+    if (multiplicity != 0)
+      out.push_back({table.vertices[k][0], table.vertices[k][1], multiplicity});
+  }
+}
+
+void append_volume(VolumeLists& lists, const TriMesh& mesh,
+                   std::span<const SilhouetteEdge> silhouette,
+                   std::span<const std::uint32_t> triangles, std::span<const std::int8_t> sides,
+                   bool directional, Casting casting, SideForm form, std::uint32_t caster,
+                   LoopScratch& scratch) {
+  const Volume volume = begin_volume(lists, caster);
+  if (form == SideForm::triangles) {
     // The weight of the side over (a, b, b at infinity, a at infinity) is minus the multiplicity,
     // and a polygon of weight -1 counts +1 where it is seen counterclockwise (shadow_volume.h).
-    const auto [a, b] = table.vertices[k];
-    for (int i = 0; i < std::abs(multiplicity); ++i) {
-      push_side(lists, a, b, multiplicity < 0, directional);
+    for (const SilhouetteEdge& e : silhouette) {
+      for (int i = 0; i < std::abs(e.multiplicity); ++i)
+        push_side(lists, e.a, e.b, e.multiplicity < 0, directional);
     }
+  } else {
+    push_loops(lists.lists[kSides], find_loops(silhouette, &scratch), form);
   }
   for (const std::uint32_t t : triangles) {
     if (casts(casting, sides[t])) push_caps(lists, mesh.triangles[t], sides[t], directional);

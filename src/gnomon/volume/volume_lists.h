@@ -20,6 +20,8 @@
 
 #include <gnomon/mesh/edge_table.h>
 #include <gnomon/mesh/tri_mesh.h>
+#include <gnomon/silhouette/silhouette.h>
+#include <gnomon/volume/loops.h>
 
 namespace gnomon {
 
@@ -61,6 +63,15 @@ struct VolumeLists {
   std::vector<Volume> volumes;
 };
 
+// How the sides over a loop of edges are sent: as triangles, or in one piece, which ends with the
+// index kRestart. Everitt and Kilgard 2002, section 3.4.
+enum class SideForm : std::uint8_t {
+  triangles,
+  strips,  // two vertices an edge; point lights
+  fans     // one vertex an edge round the point behind; directional lights
+};
+inline constexpr std::uint32_t kRestart = 0xffffffffu;
+
 // Edges by the part of a mesh that they belong to, made once: CSR over the edges of an EdgeTable.
 struct EdgesOfParts {
   std::vector<std::uint32_t> first, edge;
@@ -68,14 +79,21 @@ struct EdgesOfParts {
 EdgesOfParts edges_of_parts(const EdgeTable& edges, const std::vector<std::uint32_t>& part_of,
                             std::size_t parts);
 
-// Appends the volume of the given triangles to `lists`. `edges`: at least all edges of these
-// triangles. `group_of`: per triangle of the mesh; triangles of other groups than `group` that
-// share an edge do not count. `sides`: light_sides() of the mesh.
-void append_volume(VolumeLists& lists, const TriMesh& mesh, const EdgeTable& table,
-                   std::span<const std::uint32_t> edges, std::span<const std::uint32_t> triangles,
-                   std::span<const std::uint32_t> group_of, std::uint32_t group,
-                   std::span<const std::int8_t> sides, bool directional, Casting casting,
-                   std::uint32_t caster);
+// Appends the volume of triangles whose silhouette is known already (a lit region), or which is to
+// be sent in one piece. Sides are not turned then: loops run the way that they count.
+void append_volume(VolumeLists& lists, const TriMesh& mesh,
+                   std::span<const SilhouetteEdge> silhouette,
+                   std::span<const std::uint32_t> triangles, std::span<const std::int8_t> sides,
+                   bool directional, Casting casting, SideForm form, std::uint32_t caster,
+                   LoopScratch& scratch);
+
+// The silhouette of a part for a choice of its casting triangles, appended to `out`. `edges`: at
+// least all edges of the part. `group_of`: per triangle of the mesh; triangles of other groups than
+// `group` do not count. `sides`: light_sides() of the mesh.
+void find_part_silhouette(Silhouette& out, const EdgeTable& table,
+                          std::span<const std::uint32_t> edges,
+                          std::span<const std::uint32_t> group_of, std::uint32_t group,
+                          std::span<const std::int8_t> sides, Casting casting);
 
 // Appends the volume of one triangle: its prism, which is convex.
 void append_prism(VolumeLists& lists, const TriMesh& mesh, std::uint32_t triangle,
