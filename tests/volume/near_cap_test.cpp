@@ -16,6 +16,7 @@
 #include <gnomon/silhouette/light_sides.h>
 #include <gnomon/silhouette/silhouette.h>
 #include <gnomon/volume/near_cap.h>
+#include <gnomon/volume/near_clip.h>
 #include <scenes/generated_sphere.h>
 
 namespace gnomon {
@@ -246,6 +247,30 @@ TEST(NearCap, PrismsOnTheLightsSideOfThePlaneOnlyReachItBehindTheirTriangle) {
   EXPECT_EQ(cap.size, 3);
   EXPECT_NEAR(area(cap), 0.125 * 2.25, 1e-12);  // 1.5 times as large
   EXPECT_EQ(near_cap(a, b, c, light_side(a, b, c, above, stats), above, plane).size, 0);
+}
+
+TEST(NearCap, IsThereExactlyForTrianglesThatMayShadeTheNearRectangle) {
+  std::mt19937 random(21);
+  std::uniform_real_distribution<double> u(-4, 4);
+  int there = 0;
+  ExactStats stats;
+  for (int k = 0; k < 20000; ++k) {
+    TriMesh m;
+    for (int j = 0; j < 3; ++j) m.positions.push_back({u(random), u(random), u(random)});
+    m.triangles = {{0, 1, 2}};
+    const Vec3 &a = m.positions[0], &b = m.positions[1], &c = m.positions[2];
+    const Light light(u(random), u(random), u(random), k % 2);
+    const Frame f = random_frame(random);
+    const NearCap cap =
+        near_cap(a, b, c, light_side(a, b, c, light, stats), light, cap_plane(f.origin, f.u, f.v));
+    const NearClip near = near_clip_volume(
+        {f.origin - f.u - f.v, f.origin + f.u - f.v, f.origin + f.u + f.v, f.origin - f.u + f.v},
+        light);
+    const std::uint32_t only[] = {0};
+    EXPECT_EQ(cap.size > 0, may_any_shade_near(near, m, only)) << k;
+    there += cap.size > 0;
+  }
+  EXPECT_GT(there, 2000);
 }
 
 TEST(NearCap, RowsOfAProjectionGiveDeviceCoordinates) {

@@ -97,6 +97,15 @@ TEST(NearClip, TouchingIsNotProvedApartAndOneUnitInTheLastPlaceIsForLevelSides) 
   EXPECT_FALSE(box_may(kFlat, sun, {std::nextafter(2.0, 3.0), -1, 5}, {3, 1, 6}));
 }
 
+TEST(NearClip, KeepsThePlanesThatHoldASunsDirectionExactly) {
+  // A square turned by 45 degrees: only its own sides rule out what stands beside a corner.
+  const Rectangle turned = {Vec3(2, 0, 0), Vec3(0, 2, 0), Vec3(-2, 0, 0), Vec3(0, -2, 0)};
+  const Light zenith(0, 0, 1, 0);
+  EXPECT_EQ(near_clip_volume(turned, zenith).size, 4 + 1 + 4 + 2 * 2 + 2 * 3);
+  EXPECT_FALSE(box_may(turned, zenith, {1.25, 1.25, 3}, {1.5, 1.5, 4}));
+  EXPECT_TRUE(box_may(turned, zenith, {0.75, 0.75, 3}, {1.5, 1.5, 4}));
+}
+
 TEST(NearClip, OfALightInTheNearPlaneIsFlatAndStaysProvable) {
   for (const Light& light : {Light(7, 0.25, 0, 1), Light(1, 0.5, 0, 0)}) {
     EXPECT_TRUE(box_may(kFlat, light, {3, -0.5, -1}, {3.5, 2, 1}));        // cut by the plane

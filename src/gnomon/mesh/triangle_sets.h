@@ -3,6 +3,7 @@
 // joined in.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <numeric>
 #include <vector>

@@ -21,9 +21,13 @@ Vec3 cross(const Vec3& u, const Vec3& v) {
   return {u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
 }
 
-// x + y with y >= 0, not below the exact sum; x - y not above it.
-double raised(double x, double y) { return std::nextafter(x + y, kInfinity); }
-double lowered(double x, double y) { return std::nextafter(x - y, -kInfinity); }
+double above(double x) { return std::nextafter(x, kInfinity); }
+double below(double x) { return std::nextafter(x, -kInfinity); }
+
+// x + y with y >= 0, not below the exact sum; x - y not above it. An error bound of 0 means that
+// all products are 0, exactly: a plane that holds the direction of a sun must not lose it here.
+double raised(double x, double y) { return y == 0 ? x : above(x + y); }
+double lowered(double x, double y) { return y == 0 ? x : below(x - y); }
 
 double upper_dot(const Vec3& n, const Vec3& p) { return raised(dot(n, p), dot_error(n, p)); }
 double lower_dot(const Vec3& n, const Vec3& p) { return lowered(dot(n, p), dot_error(n, p)); }
@@ -54,7 +58,7 @@ struct Builder {
     if (light.w == 0) {
       if (to_light > 0) return;  // the prism may leave it on its way to the light
     } else {
-      most = std::max(most, std::nextafter(to_light / light.w, kInfinity));
+      most = std::max(most, above(to_light / light.w));
     }
     if (!std::isfinite(most)) return;
     near.half_spaces[static_cast<std::size_t>(near.size++)] = {n, most};
@@ -94,8 +98,8 @@ NearClip near_clip_volume(const std::array<Vec3, 4>& near_rectangle, const Light
       if (l[k] > 0) near.hi[k] = kInfinity;
       if (l[k] < 0) near.lo[k] = -kInfinity;
     } else {
-      near.lo[k] = std::min(near.lo[k], lowered(l[k] / light.w, 0));
-      near.hi[k] = std::max(near.hi[k], raised(l[k] / light.w, 0));
+      near.lo[k] = std::min(near.lo[k], below(l[k] / light.w));
+      near.hi[k] = std::max(near.hi[k], above(l[k] / light.w));
     }
   }
 
@@ -186,8 +190,7 @@ using Corners3 = std::array<Vec3, 3>;
 bool beyond(const NearClip& near, const Corners3& t, const Vec3& n) {
   const double least = std::min({lower_dot(n, t[0]), lower_dot(n, t[1]), lower_dot(n, t[2])});
   const double to_light = upper_dot(n, Vec3(near.light));
-  if (near.light.w == 0 ? to_light > 0
-                        : std::nextafter(to_light / near.light.w, kInfinity) >= least) {
+  if (near.light.w == 0 ? to_light > 0 : above(to_light / near.light.w) >= least) {
     return false;
   }
   for (const Vec3& c : near.near_rectangle) {
