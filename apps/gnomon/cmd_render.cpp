@@ -138,9 +138,10 @@ void add_render(CLI::App& app) {
       ->capture_default_str()
       ->group("OpenGL");
   command
-      ->add_option("--without", o.lacking,
-                   "Do as if OpenGL lacked it: depth-clamp, depth-bounds, float-colour, "
-                   "multisampling")
+      ->add_option(
+          "--without", o.lacking,
+          "Do as if OpenGL lacked it: depth-clamp, depth-bounds, float-blend, float-colour, "
+          "multisampling")
       ->group("OpenGL");
   command->add_flag("--check", o.check, "Compare the mask of the first light with the exact one")
       ->group("Output");

@@ -23,6 +23,7 @@ Result<Capabilities> find_capabilities() {
   c.depth_bounds = has("GL_EXT_depth_bounds_test");
   c.float_colour =
       !c.es || v >= 32 || has("GL_EXT_color_buffer_float") || has("GL_EXT_color_buffer_half_float");
+  c.float_blend = !c.es || (has("GL_EXT_color_buffer_float") && has("GL_EXT_float_blend"));
   glGetIntegerv(GL_MAX_SAMPLES, &c.max_samples);
   return c;
 }
@@ -33,12 +34,14 @@ Result<Capabilities> without(Capabilities c, const std::string& name) {
   } else if (name == "depth-bounds") {
     c.depth_bounds = false;
   } else if (name == "float-colour") {
-    c.float_colour = false;
+    c.float_colour = c.float_blend = false;
+  } else if (name == "float-blend") {
+    c.float_blend = false;
   } else if (name == "multisampling") {
     c.max_samples = 0;
   } else {
     return Error{"There is no capability '" + name +
-                 "': depth-clamp, depth-bounds, float-colour, multisampling."};
+                 "': depth-clamp, depth-bounds, float-blend, float-colour, multisampling."};
   }
   return c;
 }
@@ -52,6 +55,7 @@ std::string describe(const Capabilities& c) {
   add(c.depth_clamp, "depth clamp");
   add(c.depth_bounds, "depth bounds");
   add(c.float_colour, "half-float colour");
+  add(c.float_blend, "blending of 32-bit floats");
   return text + ", at most " + std::to_string(c.max_samples) + " samples a pixel";
 }
 

@@ -16,6 +16,7 @@ struct Capabilities {
   std::string renderer;       // GL_RENDERER
   bool depth_clamp = false;   // core since 3.2; ES: EXT_depth_clamp
   bool depth_bounds = false;  // EXT_depth_bounds_test
+  bool float_blend = false;   // 32-bit floats as a target of blending; ES: EXT_float_blend
   bool float_colour =
       false;            // half floats as a target of drawing; ES: EXT_color_buffer_(half_)float
   int max_samples = 0;  // of a multisampled renderbuffer
@@ -24,8 +25,8 @@ struct Capabilities {
 // Of the current context. Errors: no context is current, or it is older than OpenGL 3.3 / ES 3.0.
 Result<Capabilities> find_capabilities();
 
-// Makes one of them look absent: "depth-clamp", "depth-bounds", "float-colour", "multisampling".
-// Error: no such name (lists them).
+// Makes one of them look absent: "depth-clamp", "depth-bounds", "float-blend", "float-colour"
+// (both), "multisampling". Error: no such name (lists them).
 Result<Capabilities> without(Capabilities capabilities, const std::string& name);
 
 // One line for people: "OpenGL 4.5 (llvmpipe ...): depth clamp, half-float colour; no depth

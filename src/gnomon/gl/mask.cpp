@@ -30,11 +30,11 @@ struct Batch {
   IndexRange near_caps{};
 };
 
-// Counts that fit: a stencil that wraps counts from 128 down to 1 and up to 255, so that what
-// rounding counts below 0 stays lit; one that saturates from 0 to 255. Where more layers may lie
-// over each other, groups are counted one after the other in seven bits from 64, and the eighth
-// keeps what any group shaded.
-constexpr int kWrapMiddle = 128, kWrapLayers = 127, kSaturateLayers = 255;
+// Counts that fit. A stencil that wraps counts from 32, so that what rounding counts below 0 stays
+// lit, up to 223 layers, which the grid of layer_bound() proves; one that saturates counts from 0
+// up to 255 faces, and is looked through for that. Where neither fits, groups of volumes are
+// counted one after the other in seven bits from 64, and the eighth keeps what any group shaded.
+constexpr int kWrapMiddle = 32, kWrapLayers = 255 - kWrapMiddle;
 constexpr int kGroupMiddle = 64, kGroupLayers = 63;
 constexpr GLuint kGroupBits = 0x7f, kShadedBit = 0x80;
 
@@ -63,10 +63,10 @@ void use_volumes(const Frame& frame, const LightPlan& plan, const InstanceVolume
   glBindVertexArray(v.volumes->array.id());
 }
 
-void draw_range(const Frame& frame, const IndexRange& range) {
+void draw_range(const Frame& frame, const IndexRange& range, GLenum primitive = GL_TRIANGLES) {
   if (range.count == 0) return;
   glDrawElements(
-      GL_TRIANGLES, static_cast<GLsizei>(range.count), GL_UNSIGNED_INT,
+      primitive, static_cast<GLsizei>(range.count), GL_UNSIGNED_INT,
       reinterpret_cast<const void*>(std::uintptr_t(range.first) * sizeof(std::uint32_t)));
   ++frame.stats->volume_draws;
   frame.stats->volume_triangles += range.count / 3;
@@ -131,14 +131,24 @@ void make_near_caps(const Frame& frame, std::vector<InstanceVolumes>& all) {
 
 struct Prepared {
   std::vector<InstanceVolumes> all;
+  std::vector<bool> changed;  // of each, its sides
+  long long layers = 0;       // no ray from the light crosses more casting triangles
   bool grouped = false;
 };
 
+void update_all_lists(const Frame& frame, const LightPlan& plan, Prepared& prepared) {
+  for (std::size_t i = 0; i < prepared.all.size(); ++i) {
+    InstanceVolumes& v = prepared.all[i];
+    if (update_lists(*v.volumes, *v.mesh, plan.method, v.plan->near,
+                     prepared.grouped ? kGroupLayers : 0, prepared.changed[i])) {
+      ++frame.stats->rebuilt;
+    }
+  }
+  if (plan.method.count == Count::near_cap) make_near_caps(frame, prepared.all);
+}
+
 Prepared prepare(const Frame& frame, const LightPlan& plan) {
   Prepared out;
-  const Method& m = plan.method;
-  long long layers = 0;
-  std::vector<bool> changed;
   for (std::size_t i = 0; i < plan.instances.size(); ++i) {
     const LightPlan::OfInstance& of = plan.instances[i];
     if (of.parts.empty()) continue;
@@ -146,24 +156,17 @@ Prepared prepare(const Frame& frame, const LightPlan& plan) {
     const MeshSlot& mesh = frame.state->meshes[instance.mesh];
     if (instance.volumes.size() <= plan.number) instance.volumes.resize(plan.number + 1);
     CasterVolumes& v = instance.volumes[plan.number];
-    changed.push_back(update_sides(v, mesh.gpu, mesh.version, of.light, of.parts));
-    layers += v.layers;
+    out.changed.push_back(update_sides(v, mesh.gpu, mesh.version, of.light, of.parts));
+    out.layers += v.layers;
     out.all.push_back({&instance, &mesh.gpu, &v, &of, {}});
   }
-  const int most = m.ops == StencilOps::wrap ? kWrapLayers : kSaturateLayers;
-  out.grouped = m.mask == MaskIn::stencil && layers > most;
-  for (std::size_t i = 0; i < out.all.size(); ++i) {
-    InstanceVolumes& v = out.all[i];
-    if (update_lists(*v.volumes, *v.mesh, m, v.plan->near, out.grouped ? kGroupLayers : 0,
-                     changed[i])) {
-      ++frame.stats->rebuilt;
-    }
+  update_all_lists(frame, plan, out);
+  for (const InstanceVolumes& v : out.all) {
     frame.stats->z_fail_volumes += static_cast<int>(v.volumes->z_fail_volumes);
     frame.stats->z_pass_volumes +=
         static_cast<int>(v.volumes->lists.volumes.size() - v.volumes->z_fail_volumes);
     for (const std::uint8_t p : v.volumes->polygon) frame.stats->polygon_volumes += p;
   }
-  if (m.count == Count::near_cap) make_near_caps(frame, out.all);
   return out;
 }
 
@@ -266,42 +269,88 @@ Pass stencil_pass(const Method& m, bool grouped, bool z_fail, bool turned, int p
   return p;
 }
 
-void count_group(const Frame& frame, const LightPlan& plan, const std::vector<Batch>& batches,
-                 bool grouped) {
-  const Method& m = plan.method;
-  const int phases = m.passes == StencilPasses::culled ? 2 : 1;
-  for (int phase = 0; phase < phases; ++phase) {
-    if (starts_at_near_plane(m)) {
-      for (const Batch& b : batches) {
-        // Seen from the light every face counts up; a near cap's clockwise slivers count down.
-        Pass p = stencil_pass(m, grouped, false, false, phase);
-        if (m.count == Count::zp_plus) p.back.depth_pass = p.front.depth_pass;
-        if (m.count == Count::zp_plus && phase == 1) continue;
-        draw_near_start(frame, plan, b, p, 1);
-      }
+// Of culled passes, phase 0 draws what counts up and phase 1 what counts down.
+void count_phase(const Frame& frame, const LightPlan& plan, const Method& m,
+                 const std::vector<Batch>& batches, bool grouped, int phase) {
+  if (starts_at_near_plane(m) && (m.count == Count::near_cap || phase == 0)) {
+    for (const Batch& b : batches) {
+      // Seen from the light every face counts up; a near cap's clockwise slivers count down.
+      Pass p = stencil_pass(m, grouped, false, false, phase);
+      if (m.count == Count::zp_plus) p.back.depth_pass = p.front.depth_pass;
+      draw_near_start(frame, plan, b, p, 1);
     }
-    for (const bool z_fail : {true, false}) {
-      for (const bool turned : {false, true}) {
-        bool applied = false;
-        for (const Batch& b : batches) {
-          if (b.z_fail != z_fail || !any(b.ranges, turned)) continue;
-          if (!applied)
-            apply(stencil_pass(m, grouped, z_fail, turned, phase), frame.state->support);
-          applied = true;
-          use_volumes(frame, plan, *b.of);
-          draw_lists(frame, plan.method, b.ranges, z_fail, b.of->plan->caps_in_front, turned);
-        }
+  }
+  for (const bool z_fail : {true, false}) {
+    for (const bool turned : {false, true}) {
+      bool applied = false;
+      for (const Batch& b : batches) {
+        if (b.z_fail != z_fail || !any(b.ranges, turned)) continue;
+        if (!applied) apply(stencil_pass(m, grouped, z_fail, turned, phase), frame.state->support);
+        applied = true;
+        use_volumes(frame, plan, *b.of);
+        draw_lists(frame, m, b.ranges, z_fail, b.of->plan->caps_in_front, turned);
       }
     }
   }
 }
 
-LitTest count_in_stencil(const Frame& frame, const LightPlan& plan, const Prepared& prepared) {
-  const auto groups = batches_of(prepared);
+void count_group(const Frame& frame, const LightPlan& plan, const std::vector<Batch>& batches,
+                 bool grouped) {
+  const int phases = plan.method.passes == StencilPasses::culled ? 2 : 1;
+  for (int phase = 0; phase < phases; ++phase)
+    count_phase(frame, plan, plan.method, batches, grouped, phase);
+}
+
+void clear_stencil(const Frame& frame, int value) {
+  Pass p;
+  p.depth_test = false;
+  apply(p, frame.state->support);
+  glClearStencil(value);
+  glClear(GL_STENCIL_BUFFER_BIT);
+}
+
+// Counts up, looks whether anything reached 255, and counts down. False: something did.
+bool count_saturating(const Frame& frame, const LightPlan& plan,
+                      const std::vector<Batch>& batches) {
+  Method m = plan.method;
+  m.passes = StencilPasses::culled;
+  m.ops = StencilOps::saturate;
+  clear_stencil(frame, 0);
+  count_phase(frame, plan, m, batches, false, 0);
+  Pass look;
+  look.depth_test = false;
+  look.stencil_test = true;
+  look.stencil_func = GL_EQUAL;
+  look.stencil_ref = 255;
+  Renderer::State& state = *frame.state;
+  if (!state.query) state.query = Query::make();
+  glBeginQuery(GL_ANY_SAMPLES_PASSED, state.query.id());
+  draw_rectangle(frame, look, glm::vec4(0));
+  glEndQuery(GL_ANY_SAMPLES_PASSED);
+  ++frame.stats->other_rectangles;
+  GLuint full = 0;
+  glGetQueryObjectuiv(state.query.id(), GL_QUERY_RESULT, &full);
+  if (full != 0) return false;
+  count_phase(frame, plan, m, batches, false, 1);
+  return true;
+}
+
+LitTest count_in_stencil(const Frame& frame, const LightPlan& plan, Prepared& prepared) {
+  auto groups = batches_of(prepared);
+  frame.stats->stencil_groups = 1;
+  if (plan.method.ops == StencilOps::wrap && prepared.layers <= kWrapLayers) {
+    clear_stencil(frame, kWrapMiddle);
+    count_group(frame, plan, groups.front(), false);
+    return {GL_GEQUAL, kWrapMiddle, 0xff, GL_INCR, 0xff};
+  }
+  if (count_saturating(frame, plan, groups.front())) return {GL_GEQUAL, 0, 0xff, GL_INCR, 0xff};
+  prepared.grouped = true;
+  update_all_lists(frame, plan, prepared);
+  groups = batches_of(prepared);
   frame.stats->stencil_groups = static_cast<int>(groups.size());
+  clear_stencil(frame, kGroupMiddle);
   for (const std::vector<Batch>& batches : groups) {
-    count_group(frame, plan, batches, prepared.grouped);
-    if (!prepared.grouped) continue;
+    count_group(frame, plan, batches, true);
     Pass keep;  // where the group's count is above the middle, the shaded bit is set
     keep.depth_test = false;
     keep.stencil_test = true;
@@ -318,9 +367,7 @@ LitTest count_in_stencil(const Frame& frame, const LightPlan& plan, const Prepar
     draw_rectangle(frame, restart, glm::vec4(0));
     frame.stats->other_rectangles += 2;
   }
-  if (prepared.grouped) return {GL_GEQUAL, 0, kShadedBit, GL_INVERT, kShadedBit};
-  if (plan.method.ops == StencilOps::wrap) return {GL_GEQUAL, kWrapMiddle, 0xff, GL_INCR, 0xff};
-  return {GL_GEQUAL, 0, 0xff, GL_INCR, 0xff};
+  return {GL_GEQUAL, 0, kShadedBit, GL_INVERT, kShadedBit};
 }
 
 // --- alpha and screen ------------------------------------------------------------------------
@@ -381,13 +428,13 @@ void count_by_blending(const Frame& frame, const LightPlan& plan, const Prepared
 
 // Half floats count without a clamp, from 2^-14 to 2^15 and to infinity, where a count would be
 // lost: the mask is looked through for such values. Zero is what underflow leaves.
-Result<bool> check_half_floats(const Frame& frame, const Method& m, const Target& target) {
+Result<bool> check_floats(const Frame& frame, const Method& m, const Target& target) {
   Renderer::State& state = *frame.state;
   Texture2D copy = Texture2D::make();
   glActiveTexture(GL_TEXTURE3);
   glBindTexture(GL_TEXTURE_2D, copy.id());
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, target.format.width, target.format.height, 0, GL_RGBA,
-               GL_HALF_FLOAT, nullptr);
+  glTexImage2D(GL_TEXTURE_2D, 0, m.float_bits == 32 ? GL_RGBA32F : GL_RGBA16F, target.format.width,
+               target.format.height, 0, GL_RGBA, GL_FLOAT, nullptr);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   glCopyTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, 0, 0, target.format.width, target.format.height);
@@ -399,6 +446,9 @@ Result<bool> check_half_floats(const Frame& frame, const Method& m, const Target
   set(program, "u_image", 3);
   set(program, "u_channel",
       m.mask == MaskIn::alpha ? glm::vec4(0, 0, 0, 1) : glm::vec4(1, 0, 0, 0));
+  // Powers of two that have one more step to go: of half floats, normal ones.
+  set(program, "u_least", m.float_bits == 32 ? 0x1p-124f : 0x1p-13f);
+  set(program, "u_most", m.float_bits == 32 ? 0x1p126f : 0x1p14f);
   set(program, "u_depth", -1.0f);
   glBindVertexArray(state.empty.id());
   if (!state.query) state.query = Query::make();
@@ -410,9 +460,8 @@ Result<bool> check_half_floats(const Frame& frame, const Method& m, const Target
   ++frame.stats->other_rectangles;
   if (lost == 0) return true;
   return Error{
-      "More shadows lie over each other in a pixel than a half-float mask can count (about 14): "
-      "take "
-      "--method stencil, which counts any number."};
+      "More shadows lie over each other in a pixel than a mask in floats can count (about 14 in 16 "
+      "bits, 120 in 32): take --method stencil, which counts any number."};
 }
 
 void rectangle_blend(const Frame& frame, const Method& m, GLenum source, GLenum destination,
@@ -431,7 +480,7 @@ void rectangle_blend(const Frame& frame, const Method& m, GLenum source, GLenum 
 // Three states to two (Roettger et al., 4.3 and 4.4; TECHNIQUES 6).
 void normalise(const Frame& frame, const Method& m) {
   const bool attenuated = m.shadows == Shadows::attenuated;
-  if (m.half_float) {
+  if (m.float_bits > 0) {
     // Powers of two without a clamp: bounded from both sides first.
     const bool maximum = m.arithmetic == Arithmetic::maximum;
     if (!maximum) rectangle_blend(frame, m, GL_ONE, GL_ONE, 0.25f, GL_MAX);
@@ -517,15 +566,9 @@ void count_unlit_receivers(const Frame& frame, const LightPlan& plan, bool group
   }
 }
 
-void clear_mask(const Frame& frame, const Method& m, bool grouped) {
+void clear_colours(const Frame& frame, const Method& m) {
   Pass p;
   p.depth_test = false;
-  if (m.mask == MaskIn::stencil) {
-    apply(p, frame.state->support);
-    glClearStencil(grouped ? kGroupMiddle : m.ops == StencilOps::wrap ? kWrapMiddle : 0);
-    glClear(GL_STENCIL_BUFFER_BIT);
-    return;
-  }
   const float start = m.arithmetic == Arithmetic::maximum ? 1.0f : 0.25f;
   p.colour = mask_channels(m);
   apply(p, frame.state->support);
@@ -551,17 +594,17 @@ void draw_where_shadowed(Pass& p, const LitTest& lit) {
 
 Result<LitTest> draw_light_mask(const Frame& frame, const LightPlan& plan, const Target* target) {
   const Method& m = plan.method;
-  const Prepared prepared = prepare(frame, plan);
-  clear_mask(frame, m, prepared.grouped);
+  Prepared prepared = prepare(frame, plan);
   if (m.mask == MaskIn::stencil) {
     const LitTest lit = count_in_stencil(frame, plan, prepared);
     count_unlit_receivers(frame, plan, prepared.grouped);
     return lit;
   }
+  clear_colours(frame, m);
   count_by_blending(frame, plan, prepared);
   count_unlit_receivers(frame, plan, false);
-  if (m.half_float) {
-    Result<bool> good = check_half_floats(frame, m, *target);
+  if (m.float_bits > 0) {
+    Result<bool> good = check_floats(frame, m, *target);
     if (!good) return good.error();
   }
   normalise(frame, m);

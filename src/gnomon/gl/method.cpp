@@ -79,7 +79,7 @@ std::string describe(const Method& m) {
     add(name_of(m.ops));
   } else {
     add(name_of(m.arithmetic));
-    if (m.half_float) add("half floats");
+    if (m.float_bits > 0) add(m.float_bits == 16 ? "16-bit floats" : "32-bit floats");
   }
   add("volumes of " + std::string(name_of(m.volumes)));
   add("far plane " + std::string(name_of(m.far_plane)));
@@ -159,18 +159,19 @@ Result<Method> decide(Method m, const Situation& s, const Capabilities& c) {
   // Volumes.
   if (!stencil) {
     // The clamp at 1 loses counts unless every draw has one entry and one exit on each view ray;
-    // powers of two in half floats count from -12 to 17 without one.
-    m.half_float = !s.all_convex || m.volumes == VolumesOf::polygon || m.count == Count::mixed;
+    // powers of two in floats count without one.
+    const bool floats = !s.all_convex || m.volumes == VolumesOf::polygon || m.count == Count::mixed;
+    m.float_bits = !floats ? 0 : c.float_blend ? 32 : 16;
     if (m.volumes == VolumesOf::automatic) m.volumes = VolumesOf::caster;
-    if (m.half_float && !c.float_colour) {
+    if (floats && !c.float_colour) {
       return refuse(
           "Doubling and halving in 8 bits loses counts where a view ray enters one volume twice or "
-          "volumes touch, and some casters are not convex; this OpenGL draws no half floats, which "
+          "volumes touch, and some casters are not convex; this OpenGL draws no floats, which "
           "would hold them. Take --method stencil.");
     }
-    if (m.half_float && m.samples > 1) {
+    if (floats && m.samples > 1) {
       return refuse(
-          "Casters that are not convex need a mask in half floats, whose overflow is looked for "
+          "Casters that are not convex need a mask in floats, whose overflow is looked for "
           "pixel by pixel: take --samples 1, or --method stencil.");
     }
   } else if (m.volumes == VolumesOf::automatic) {

@@ -53,7 +53,7 @@ TargetFormat format_of(const Camera& camera, const Method& m, double scale) {
   f.height = std::max(1, static_cast<int>(std::ceil(camera.height * scale)));
   f.samples = m.samples;
   f.stencil = m.mask == MaskIn::stencil;
-  f.half_float = m.half_float;
+  f.float_bits = m.float_bits;
   return f;
 }
 
@@ -304,11 +304,9 @@ InstanceId Renderer::add_scene(const Scene& scene) {
   return add_instance(add_mesh(scene.mesh, std::move(cast), std::move(receive)));
 }
 
-Result<Image> Renderer::render(const Camera& camera, std::span<const LightSource> lights,
-                               const FrameOptions& options, FrameStats* stats) {
-  FrameStats own;
-  FrameStats& counted = stats != nullptr ? *stats : own;
-  counted = {};
+Result<FrameStats> Renderer::draw(const Camera& camera, std::span<const LightSource> lights,
+                                  const FrameOptions& options) {
+  FrameStats counted;
   const StateGuard guard(state_->support);
   const Frame frame{state_.get(), &camera, &counted};
   Method wanted = options.method;
@@ -321,10 +319,15 @@ Result<Image> Renderer::render(const Camera& camera, std::span<const LightSource
     plans.push_back(std::move(plan).value());
   }
   if (!plans.empty()) counted.method = plans.front().method;
-  for (const LightPlan& plan : plans) wanted.half_float |= plan.method.half_float;
-  Result<Target> made = make_target(format_of(camera, wanted, 1.0));
-  if (!made) return made.error();
-  const Target& picture = made.value();
+  for (const LightPlan& plan : plans)
+    wanted.float_bits = std::max(wanted.float_bits, plan.method.float_bits);
+  const TargetFormat format = format_of(camera, wanted, 1.0);
+  if (!state_->picture || state_->picture->format != format) {
+    Result<Target> made = make_target(format);
+    if (!made) return made.error();
+    state_->picture = std::move(made).value();
+  }
+  const Target& picture = *state_->picture;
   clear(frame, picture, options.background);
   Result<bool> drawn = true;
   if (wanted.shadows == Shadows::lights || lights.empty()) {
@@ -346,7 +349,34 @@ Result<Image> Renderer::render(const Camera& camera, std::span<const LightSource
     for (const LightPlan& plan : plans)
       draw_volume_faces(frame, plan, p, glm::vec4(1.0f, 0.85f, 0.1f, 0.12f));
   }
-  return read_colours(picture);
+  return counted;
+}
+
+void Renderer::finish() const { glFinish(); }
+
+Image Renderer::read() const {
+  const StateGuard guard(state_->support);
+  return read_colours(*state_->picture);
+}
+
+void Renderer::present() const {
+  GLint to = 0;
+  glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &to);
+  const StateGuard guard(state_->support);
+  const TargetFormat& f = state_->picture->format;
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, state_->picture->framebuffer.id());
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(to));
+  apply(colour_pass(GL_ALWAYS), state_->support);
+  glBlitFramebuffer(0, 0, f.width, f.height, 0, 0, f.width, f.height, GL_COLOR_BUFFER_BIT,
+                    GL_NEAREST);
+}
+
+Result<Image> Renderer::render(const Camera& camera, std::span<const LightSource> lights,
+                               const FrameOptions& options, FrameStats* stats) {
+  Result<FrameStats> drawn = draw(camera, lights, options);
+  if (!drawn) return drawn.error();
+  if (stats != nullptr) *stats = drawn.value();
+  return read();
 }
 
 Result<ShadowMask> Renderer::mask(const Camera& camera, const Light& light, const Method& method,

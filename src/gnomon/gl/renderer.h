@@ -61,6 +61,9 @@ struct FrameStats {
   int polygon_volumes = 0;  // of these, volumes of single polygons
   int rebuilt = 0;          // casters' volumes made anew; the others were kept
   int stencil_groups = 0;   // groups of casters counted apart so that no count overflows
+  // Of draw_mask(): a sample is lit where (stencil & lit_bits) <= lit_at_most.
+  int lit_at_most = 0;
+  unsigned lit_bits = 0xff;
 };
 
 using MeshId = std::uint32_t;
@@ -93,7 +96,17 @@ class Renderer {
   // One mesh and one instance of it.
   InstanceId add_scene(const Scene& scene);
 
-  // A picture in a framebuffer of our own. Errors: decide()'s reasons, too large a picture.
+  // A frame in a framebuffer of the renderer's own, which is kept for the next one. Errors:
+  // decide()'s reasons, too large a picture.
+  Result<FrameStats> draw(const Camera& camera, std::span<const LightSource> lights,
+                          const FrameOptions& options);
+  // Waits until all that was asked of OpenGL is done: to be called before a clock is read.
+  void finish() const;
+  // The pixels of the last frame. Precondition: there is one.
+  Image read() const;
+  // Copies the last frame to the framebuffer that is bound for drawing, from its lower left corner.
+  void present() const;
+  // draw() and read().
   Result<Image> render(const Camera& camera, std::span<const LightSource> lights,
                        const FrameOptions& options, FrameStats* stats = nullptr);
   // The mask of one light: lit, shadow or no sample per pixel.

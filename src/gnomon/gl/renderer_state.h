@@ -39,6 +39,7 @@ struct Renderer::State {
   Buffer near_caps;  // vertices in clip space
   VertexArray near_cap_array;
   Query query;
+  std::optional<Target> picture;  // of draw()
 };
 
 // One frame: what every step needs to know.

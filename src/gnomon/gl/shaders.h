@@ -186,15 +186,17 @@ void main() {
 }
 )";
 
-// Half floats at the ends of their normal range have lost a count, or are about to.
+// Floats at the ends of their range have lost a count, or are about to.
 inline constexpr const char* kOverflowFragment = R"(
 in vec2 v_texture;
 uniform sampler2D u_image;
 uniform vec4 u_channel;
+uniform float u_least;
+uniform float u_most;
 out vec4 o_colour;
 void main() {
   float value = dot(texture(u_image, v_texture), u_channel);
-  if (value >= 6.2e-5 && value <= 32768.0) discard;
+  if (value >= u_least && value <= u_most) discard;
   o_colour = vec4(1.0);
 }
 )";

@@ -26,8 +26,12 @@ Result<Target> make_target(const TargetFormat& f, const Target* depth_of) {
   } else {
     t.colour = Texture2D::make();
     glBindTexture(GL_TEXTURE_2D, t.colour.id());
-    glTexImage2D(GL_TEXTURE_2D, 0, f.half_float ? GL_RGBA16F : GL_RGBA8, f.width, f.height, 0,
-                 GL_RGBA, f.half_float ? GL_HALF_FLOAT : GL_UNSIGNED_BYTE, nullptr);
+    glTexImage2D(GL_TEXTURE_2D, 0,
+                 f.float_bits == 32   ? GL_RGBA32F
+                 : f.float_bits == 16 ? GL_RGBA16F
+                                      : GL_RGBA8,
+                 f.width, f.height, 0, GL_RGBA, f.float_bits > 0 ? GL_FLOAT : GL_UNSIGNED_BYTE,
+                 nullptr);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
@@ -82,7 +86,7 @@ Image read_colours(const Target& target) {
   }
   glBindFramebuffer(GL_READ_FRAMEBUFFER, from);
   glPixelStorei(GL_PACK_ALIGNMENT, 4);
-  if (f.half_float) {
+  if (f.float_bits > 0) {
     std::vector<float> values(image.rgba.size());
     glReadPixels(0, 0, f.width, f.height, GL_RGBA, GL_FLOAT, values.data());
     std::transform(values.begin(), values.end(), image.rgba.begin(), [](float v) {

@@ -10,8 +10,9 @@ namespace gnomon::gl {
 struct TargetFormat {
   int width = 0, height = 0;
   int samples = 1;
-  bool half_float = false;  // 16-bit floats instead of 8-bit colours
-  bool stencil = true;      // 24-bit depth with 8-bit stencil; without: 24-bit depth alone
+  int float_bits = 0;   // 16 or 32: floats instead of 8-bit colours
+  bool stencil = true;  // 24-bit depth with 8-bit stencil; without: 24-bit depth alone
+  bool operator==(const TargetFormat&) const = default;
 };
 
 struct Target {
