@@ -18,6 +18,10 @@
 
 namespace gnomon::gl {
 
+// A stencil that wraps counts from here, so that what rounding counts below 0 stays lit, and holds
+// so many layers.
+inline constexpr int kWrapMiddle = 32, kWrapLayers = 255 - kWrapMiddle;
+
 // How one part is drawn, for this light and camera.
 struct PartPlan {
   bool z_fail = false;

@@ -30,11 +30,10 @@ struct Batch {
   IndexRange near_caps{};
 };
 
-// Counts that fit. A stencil that wraps counts from 32, so that what rounding counts below 0 stays
-// lit, up to 223 layers, which the grid of layer_bound() proves; one that saturates counts from 0
-// up to 255 faces, and is looked through for that. Where neither fits, groups of volumes are
-// counted one after the other in seven bits from 64, and the eighth keeps what any group shaded.
-constexpr int kWrapMiddle = 32, kWrapLayers = 255 - kWrapMiddle;
+// Counts that fit. One that wraps, up to kWrapLayers, which the grid of layer_bound() proves; one
+// that saturates counts from 0 up to 255 faces, and is looked through for that. Where neither fits,
+// groups of volumes are counted one after the other in seven bits from 64, and the eighth keeps
+// what any group shaded.
 constexpr int kGroupMiddle = 64, kGroupLayers = 63;
 constexpr GLuint kGroupBits = 0x7f, kShadedBit = 0x80;
 
