@@ -236,7 +236,8 @@ Result<Model> read_with_assimp(const std::string& path, std::string_view bytes,
 
 bool is_assimp_file(const std::filesystem::path& path) { return mesh_format(path) != nullptr; }
 
-Result<Model> read_assimp(const std::filesystem::path& path, char up, double metres_per_unit) {
+Result<Model> read_assimp(const std::filesystem::path& path, char up, double metres_per_unit,
+                          const ReadOptions& options) {
   const std::string name = path.string();
   const MeshFormat* format = mesh_format(path);
   if (!format) {
@@ -249,7 +250,7 @@ Result<Model> read_assimp(const std::filesystem::path& path, char up, double met
   const char file_up = up != 0 ? up : format->up == UpAxis::kY ? 'y' : 'z';
   switch (format->reader) {
     case MeshReader::kGltf: {
-      auto model = read_gltf(text.value(), name);
+      auto model = read_gltf(text.value(), name, options);
       if (model) warn_of_unused(model.value().warnings, name, *format, up, metres_per_unit);
       return model;
     }

@@ -7,6 +7,7 @@
 
 #include <gnomon/core/result.h>
 #include <gnomon/io/model.h>
+#include <gnomon/io/read_options.h>
 
 namespace gnomon {
 
@@ -42,6 +43,7 @@ bool is_assimp_file(const std::filesystem::path& path);
 // Errors name file and element: what cannot be read, coordinates that are not finite, indices out
 // of range, files that are cut off. Assimp's readers abort on some damaged files; each file is
 // tried out in a forked process first (tried_apart.h), so that it becomes an error here.
-Result<Model> read_assimp(const std::filesystem::path& path, char up, double metres_per_unit);
+Result<Model> read_assimp(const std::filesystem::path& path, char up, double metres_per_unit,
+                          const ReadOptions& options = {});
 
 }  // namespace gnomon
