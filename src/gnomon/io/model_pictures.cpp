@@ -76,4 +76,11 @@ int ModelPictures::bytes(std::string_view bytes, const std::string& name, const 
   return add(read_picture(bytes, name), name, key, edges);
 }
 
+int ModelPictures::texels(Texture texture, const std::string& id, const PictureEdges& edges) {
+  const std::string key = key_of("bytes " + id, edges);
+  if (const auto at = known_.find(key); at != known_.end()) return at->second;
+  const std::string name = texture.name;
+  return add(std::move(texture), name, key, edges);
+}
+
 }  // namespace gnomon

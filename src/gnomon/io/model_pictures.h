@@ -28,6 +28,8 @@ class ModelPictures {
   // `name`: what a message calls it. `key`: equal for the same bytes alone.
   int bytes(std::string_view bytes, const std::string& name, const std::string& key,
             const PictureEdges& edges = {});
+  // What is decoded already.
+  int texels(Texture texture, const std::string& key, const PictureEdges& edges = {});
 
  private:
   int add(Result<Texture> texture, const std::string& name, const std::string& key,

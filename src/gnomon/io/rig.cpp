@@ -34,7 +34,7 @@ Vec3 unit(const Vec3& v) {
 
 // The shape before bones and nodes.
 RigShape shaped(const RigPart& part, const RigPose& pose) {
-  if (!part.frames.empty()) {
+  if (pose.framed && !part.frames.empty()) {
     const RigShape &a = part.frames[pose.frame], &b = part.frames[pose.next_frame];
     RigShape out = a;
     if (pose.to_next == 0) return out;

@@ -44,8 +44,8 @@ struct RigTrack {
 struct RigClip {
   double duration = 0;  // seconds
   std::vector<RigTrack> tracks;
-  std::size_t first_frame = 0, frames = 0;  // 0: it has tracks
-  double frames_per_second = 0;             // the last frame goes over into the first
+  std::size_t frames = 0;        // 0: it has tracks
+  double frames_per_second = 0;  // the last frame goes over into the first
 };
 
 struct RigShape {
@@ -72,7 +72,7 @@ struct RigPart {
   std::vector<RigBone> bones;
   std::vector<RigInfluence> influences;  // added up in this order, weights scaled to a sum of 1;
                                          // vertices without any stand as the node does
-  std::vector<RigShape> frames;          // in place of `shape`
+  std::vector<RigShape> frames;          // in place of `shape`, but at rest
 };
 
 struct RigPoint {
@@ -94,8 +94,9 @@ struct Rig {
 struct RigPose {
   std::vector<Mat4> world;                   // per node
   std::vector<std::vector<double>> weights;  // per node; empty: at rest
-  std::size_t frame = 0, next_frame = 0;     // of parts that have frames
-  double to_next = 0;                        // 0: at `frame`, 1: at `next_frame`
+  bool framed = false;                       // parts have frames, and it is between two of them
+  std::size_t frame = 0, next_frame = 0;
+  double to_next = 0;  // 0: at `frame`, 1: at `next_frame`
 };
 
 // The node's own transform. `rotation` must not be of length 0.

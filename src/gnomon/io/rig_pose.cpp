@@ -92,8 +92,9 @@ Mat4 matrix_at_rest(const RigNode& n) {
 void find_frames(RigPose& pose, const RigClip& clip, double time) {
   const double at = time * clip.frames_per_second, whole = std::floor(at);
   const auto frame = static_cast<std::size_t>(whole);
-  pose.frame = clip.first_frame + frame % clip.frames;
-  pose.next_frame = clip.first_frame + (frame + 1) % clip.frames;
+  pose.framed = true;
+  pose.frame = frame % clip.frames;
+  pose.next_frame = (frame + 1) % clip.frames;
   pose.to_next = at - whole;
 }
 
