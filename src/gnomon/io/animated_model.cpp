@@ -100,6 +100,9 @@ Result<AnimatedModel> open_animated(const std::filesystem::path& path,
     out.mesh.triangles.push_back(v);
     out.surface_of.push_back(scene.surface_of[t]);
   }
+  if (kept.empty()) {
+    return Error{fmt::format("{}: none of its surfaces has an area.", path.string())};
+  }
   warn(scene.warnings, "Triangles without area were dropped.", path.string(),
        scene.mesh.triangles.size() - kept.size());
   keep_triangles(scene.appearance, kept);
