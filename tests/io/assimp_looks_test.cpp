@@ -2,6 +2,9 @@
 #include <gnomon/io/animated_model.h>
 
 #include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <iterator>
 
 #include "looks_files.h"
 
@@ -118,6 +121,52 @@ TEST(AssimpLooks, Md2HasNormalsAndCoordinatesOfItsOwn) {
       if (n.x * double(m.x) + n.y * double(m.y) + n.z * double(m.z) < 0) ++away;
     }
     EXPECT_LT(away, scene.mesh.triangles.size() / 20) << moves;
+  }
+}
+
+TEST(AssimpLooks, SkinsOfMd2LieOnTheirTriangles) {
+  const auto folder = std::filesystem::path(GNOMON_DATA) / "animated/MD2";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not there";
+  const auto bytes_of_file = [&](const char* name) {
+    std::ifstream file(folder / name, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  const Files files;
+  std::string bytes = bytes_of_file("faerie.md2");
+  const auto at = [&](std::size_t k) {
+    std::uint32_t n;
+    std::memcpy(&n, bytes.data() + 4 * k, 4);
+    return n;
+  };
+  const auto put = [&](std::size_t k, std::size_t value) {
+    const auto n = static_cast<std::uint32_t>(value);
+    std::memcpy(bytes.data() + 4 * k, &n, 4);
+  };
+  const auto two = [&](std::size_t offset) {
+    std::uint16_t n;
+    std::memcpy(&n, bytes.data() + offset, 2);
+    return std::size_t(n);
+  };
+  // The file names no skin: one is put in at its end.
+  put(5, 1), put(11, bytes.size());
+  std::string name = "models/faerie2.bmp";
+  name.resize(128, '\0');  // 64 bytes, and more: Assimp takes none that ends with the file
+  bytes += name;
+  put(16, bytes.size());
+  files("faerie2.bmp", bytes_of_file("faerie2.bmp"));
+  LoadOptions options = with_looks();
+  options.time = 0.0;
+  const Scene scene = load({files("f.md2", bytes)}, options).scene;
+  const double width = at(2), height = at(3);
+  ASSERT_EQ(scene.appearance.uv.size(), std::size_t(at(8)));
+  EXPECT_GE(material_of(scene, 0).base_texture, 0);
+  for (std::size_t t = 0; t < at(8); ++t) {
+    for (std::size_t c = 0; c < 3; ++c) {  // Assimp turns the corners around
+      const std::size_t st = two(at(13) + 12 * t + 6 + 2 * (2 - c));
+      const glm::vec2 uv = scene.appearance.uv[t][c];
+      EXPECT_NEAR(double(uv.x), double(two(at(12) + 4 * st)) / width, 1e-6);
+      EXPECT_NEAR(double(uv.y), double(two(at(12) + 4 * st + 2)) / height, 1e-6);
+    }
   }
 }
 

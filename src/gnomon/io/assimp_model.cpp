@@ -227,7 +227,11 @@ Result<Model> read_with_assimp(const std::string& path, std::string_view bytes,
   }
   const std::uint32_t frames = frames_of(format, bytes);
   if (frames > 1 && !frames_of_file) {
-    warn(model.warnings, "Frames after the first were left out.", path, frames - 1);
+    warn(model.warnings,
+         std::string_view(format.name) == "MD2"
+             ? "Frames after the first were left out; --time SECONDS takes others."
+             : "Frames after the first were left out.",
+         path, frames - 1);
   }
   if (format.reader == MeshReader::kDae) {
     const BrokenLinks broken = broken_links_of_collada(bytes);

@@ -35,10 +35,11 @@ bool is_assimp_file(const std::filesystem::path& path);
 //
 // Surface::object is the node's name, nested ones as "parent/child"; of IFC the element's
 // "IfcWall_<name>_<GUID>" alone. Surface::group is the mesh's name, of IFC the element's type
-// ("IfcWall"). Animated models stand as the file has them at rest (MD2: the first frame), with a
-// warning. Points and lines are left out with a warning, and so are IFC spaces, openings and
-// annotations. A file without faces gives a model without polygons. No other files than the model
-// and the buffers of glTF are opened; materials' pictures are not needed.
+// ("IfcWall"). Animated models stand as they do at options.time, else as the file has them at rest
+// (MD2: the first frame), with a warning. Points and lines are left out with a warning, and so are
+// IFC spaces, openings and annotations. A file without faces gives a model without polygons. No
+// other files than the model and the buffers of glTF are opened; with options.appearance, pictures
+// beside the model too.
 //
 // Errors name file and element: what cannot be read, coordinates that are not finite, indices out
 // of range, files that are cut off. Assimp's readers abort on some damaged files; each file is

@@ -231,7 +231,9 @@ class Walk {
   void report() {
     Model& m = builder_.model;
     if (scene_.mNumAnimations > 0 && !asks_for_animation(options_)) {
-      warn(m.warnings, "Animations are not played: the model stands as the file has it at rest.",
+      warn(m.warnings,
+           "Animations are not played: the model stands as the file has it at rest; --time SECONDS "
+           "poses it.",
            path(), scene_.mNumAnimations);
     }
     if (morphs_) {

@@ -84,7 +84,9 @@ class GltfReader {
     warn_of_nodes_outside();
     Model& m = builder_.model;
     if (!asks_for_animation(options_)) {
-      warn(m.warnings, "Animations are not played: the model stands as the file has it at rest.",
+      warn(m.warnings,
+           "Animations are not played: the model stands as the file has it at rest; --time SECONDS "
+           "poses it.",
            f_.path, m.animations);
     }
     const Json* used = member(&f_.json, "extensionsUsed");

@@ -53,7 +53,8 @@ struct LoadOptions {
   std::vector<FileOptions> for_files = {};  // stronger than the above; the last that matches wins
   FootprintOptions footprints = {};
   RasterMesh surface = RasterMesh::triangles;
-  bool appearance = false;  // fill Scene::appearance, and read pictures and .mtl files for it
+  // Fill Scene::appearance, and read pictures and .mtl files for it. No triangle is another one.
+  bool appearance = false;
   // Animated models stand as they do then, seconds from the start of the animation; more than its
   // length goes round, less than 0 is an error. Empty: at rest, as the file has them.
   std::optional<double> time = {};
