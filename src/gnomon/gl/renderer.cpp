@@ -371,7 +371,20 @@ Result<FrameStats> Renderer::draw(const Camera& camera, std::span<const LightSou
   clear(frame, picture, options.background);
   frame.scissor = visible_rectangle(frame);
   Result<bool> drawn = true;
-  if (wanted.shadows == Shadows::lights || lights.empty()) {
+  const Shadows shadows = plans.empty() ? Shadows::lights : plans.front().method.shadows;
+  if (shadows == Shadows::restored) {
+    Lighting all;
+    all.light = &lights.front();
+    all.ambient = options.ambient;
+    all.emission = true;
+    draw_lit(frame, first_pass(true), all);
+    const Result<LitTest> lit = draw_light_mask(frame, plans.front(), &picture);
+    if (!lit) return lit.error();
+    Pass restore = colour_pass(GL_EQUAL);
+    draw_where_shadowed(restore, lit.value());
+    all.light = nullptr;
+    draw_lit(frame, restore, all);
+  } else if (shadows == Shadows::lights) {
     Lighting ambient;
     ambient.ambient = options.ambient;
     ambient.emission = true;
