@@ -396,15 +396,9 @@ Result<FrameStats> Renderer::draw(const Camera& camera, std::span<const LightSou
   }
   if (!drawn) return drawn.error();
   if (state_->failure) return *std::exchange(state_->failure, std::nullopt);
-  if (options.show == Show::volumes) {
-    bind(picture);
-    Pass p = colour_pass(GL_LESS);
-    p.blend = true;
-    p.source = GL_SRC_ALPHA;
-    p.destination = GL_ONE_MINUS_SRC_ALPHA;
-    for (const LightPlan& plan : plans)
-      draw_volume_faces(frame, plan, p, glm::vec4(1.0f, 0.85f, 0.1f, 0.12f));
-  }
+  bind(picture);
+  drawn = draw_overlay(frame, lights, plans, options.overlay, options.background);
+  if (!drawn) return drawn.error();
   return counted;
 }
 
