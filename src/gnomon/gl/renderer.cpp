@@ -397,6 +397,7 @@ Result<FrameStats> Renderer::draw(const Camera& camera, std::span<const LightSou
   if (!drawn) return drawn.error();
   if (state_->failure) return *std::exchange(state_->failure, std::nullopt);
   bind(picture);
+  frame.scissor.reset();  // volumes are seen beyond what they shade
   drawn = draw_overlay(frame, lights, plans, options.overlay, options.background);
   if (!drawn) return drawn.error();
   return counted;
