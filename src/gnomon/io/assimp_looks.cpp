@@ -111,8 +111,11 @@ std::uint32_t AssimpLooks::material(const aiMesh& mesh) {
          "Maps of materials but of the base colour, the light they give and normals were left out.",
          fmt::format("{}: material {}", model_.report.path, in_quotes(m.name, 200)));
   }
-  known->material = static_cast<std::uint32_t>(model_.looks->materials.size());
-  model_.looks->materials.push_back(std::move(m));
+  // IFC has its few materials once for each element.
+  std::vector<Material>& all = model_.looks->materials;
+  const auto same = std::find(all.begin(), all.end(), m);
+  known->material = static_cast<std::uint32_t>(same - all.begin());
+  if (same == all.end()) all.push_back(std::move(m));
   return known->material;
 }
 
