@@ -45,5 +45,6 @@ void add_convert(CLI::App& app);
 void add_inspect(CLI::App& app);
 void add_sun(CLI::App& app);
 void add_verify(CLI::App& app);
+void add_verify_gl(CLI::App& app);
 
 }  // namespace gnomon::app
