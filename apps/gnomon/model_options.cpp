@@ -107,6 +107,31 @@ void add_placing(CLI::App& command, LoadOptions& load) {
       [](FileOptions& f, const std::string& v) { f.site = read_site(v); });
 }
 
+double read_time(const std::string& text) {
+  double seconds = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seconds);
+  if (error != std::errc() || end != text.data() + text.size()) {
+    throw Failure(fmt::format(
+        "--time '{}' cannot be read: write seconds of an animation, as 1.5; a time of day "
+        "belongs to --at, --from and --to",
+        text));
+  }
+  return seconds;
+}
+
+void add_animation(CLI::App& command, LoadOptions& load) {
+  add_per_file(
+      command, load, "--time", "SECONDS",
+      "Animated models stand as they do that long after the animation's start (default: at rest)",
+      [&load](const std::string& v) { load.time = read_time(v); },
+      [](FileOptions& f, const std::string& v) { f.time = read_time(v); });
+  add_per_file(
+      command, load, "--animation", "NAME",
+      "Animation that --time means, by name or number from 0 (default: the first)",
+      [&load](const std::string& v) { load.animation = v; },
+      [](FileOptions& f, const std::string& v) { f.animation = v; });
+}
+
 void add_footprints(CLI::App& command, FootprintOptions& footprints) {
   constexpr const char* kGroup = "Footprints (GeoJSON, GeoPackage, Shapefile)";
   command.add_option("--layer", footprints.layer, "Layer to read where there are several")
@@ -172,6 +197,7 @@ void add_model_options(CLI::App& command, ModelOptions& options) {
       .add_option("--lod", load.lod, "CityJSON level of detail (default: each object's highest)")
       ->group(kGroup);
   add_placing(command, load);
+  add_animation(command, load);
   command
       .add_option(
           "--ground", load.ground,

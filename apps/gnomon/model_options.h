@@ -18,11 +18,10 @@ struct ModelOptions {
 };
 
 // Adds MODEL... (required) and, in the group "Model", --lod --up --unit --north --crs --site
-// --ground
-// --cast --no-cast --receive, and groups for footprints and surface models. --up --unit --north
-// --crs
-// --site take [FILE=]VALUE, for one file or for all, and may be repeated; so may the last three,
-// which take one pattern each. `options` must outlive the parsing.
+// --time --animation --ground --cast --no-cast --receive, and groups for footprints and surface
+// models. --up --unit --north --crs --site --time --animation take [FILE=]VALUE, for one file or
+// for all, and may be repeated; so may the last three, which take one pattern each. `options` must
+// outlive the parsing.
 void add_model_options(CLI::App& command, ModelOptions& options);
 
 // The scene, with a line of progress on the terminal. `bounds`: the ground reaches at least there

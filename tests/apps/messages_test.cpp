@@ -21,13 +21,19 @@ TEST_F(Messages, OtherNamesOfOptionsLeadToOurs) {
                                     {"--zone", "--tz"},
                                     {"--out", "--output"},
                                     {"--resolution", "--pixel"},
-                                    {"--time", "--from"},
+                                    {"--begin", "--from"},
                                     {"--step", "--every"},
                                     {"--lat", "--site LAT,LON"},
                                     {"--location", "--site LAT,LON"}}) {
     EXPECT_EQ(run(std::string("profile a.obj ") + said + " x"), 2);
     EXPECT_TRUE(says(std::string("Did you mean ") + meant + "?")) << said << ": " << err_;
   }
+}
+
+TEST_F(Messages, ATimeOfDayIsNoTimeOfAnAnimation) {
+  EXPECT_NE(run("profile a.obj --time 9:00"), 0);
+  EXPECT_TRUE(says("--time '9:00' cannot be read")) << err_;
+  EXPECT_TRUE(says("a time of day belongs to --at, --from and --to")) << err_;
 }
 
 TEST_F(Messages, ASlipOfTheKeysIsCorrectedAndNothingElse) {

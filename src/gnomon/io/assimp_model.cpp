@@ -7,9 +7,11 @@
 #include <gnomon/io/assimp_formats.h>
 #include <gnomon/io/assimp_model.h>
 #include <gnomon/io/assimp_scene.h>
+#include <gnomon/io/choose_animation.h>
 #include <gnomon/io/collada_links.h>
 #include <gnomon/io/digits.h>
 #include <gnomon/io/gltf.h>
+#include <gnomon/io/key_frames.h>
 #include <gnomon/io/mesh_text.h>
 #include <gnomon/io/off.h>
 #include <gnomon/io/ply.h>
@@ -104,10 +106,10 @@ void warn_of_unused(Warnings& warnings, const std::string& path, const MeshForma
   }
 }
 
-void set_properties(Assimp::Importer& importer) {
+void set_properties(Assimp::Importer& importer, bool appearance) {
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_ANIMATIONS, true);
-  importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_TEXTURES, false);
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_TEXTURES, appearance);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_MD3_HANDLE_MULTIPART, false);
@@ -164,8 +166,8 @@ void warn_of_lost_digits(Model& model, const MeshFormat& format, std::string_vie
 constexpr std::uint64_t kTrialSeconds = 20, kBytesPerSecond = 100'000;
 constexpr std::uint64_t kTrialBytes = std::uint64_t{1} << 30, kBytesPerByte = 1000;
 
-const aiScene* import(Assimp::Importer& importer, const std::string& path) {
-  set_properties(importer);
+const aiScene* import(Assimp::Importer& importer, const std::string& path, bool appearance) {
+  set_properties(importer, appearance);
   importer.SetIOHandler(new OneFile(path));  // the importer's own from here on
   return importer.ReadFile(path, 0);
 }
@@ -176,17 +178,18 @@ std::string failure_of(const Assimp::Importer& importer) {
 }
 
 Result<Model> read_with_assimp(const std::string& path, std::string_view bytes,
-                               const MeshFormat& format, char up, double metres_per_unit) {
+                               const MeshFormat& format, char up, double metres_per_unit,
+                               const ReadOptions& options) {
   const std::string problem = tried_apart(
       [&] {
         Assimp::Importer trial;
-        return import(trial, path) ? std::string() : failure_of(trial);
+        return import(trial, path, options.appearance) ? std::string() : failure_of(trial);
       },
       {kTrialSeconds + bytes.size() / kBytesPerSecond, kTrialBytes + bytes.size() * kBytesPerByte});
   if (!problem.empty() && !says_there_is_nothing(problem))
     return cannot_read(path, format, problem);
   Assimp::Importer importer;
-  const aiScene* scene = problem.empty() ? import(importer, path) : nullptr;
+  const aiScene* scene = problem.empty() ? import(importer, path, options.appearance) : nullptr;
 
   ModelBuilder builder;
   Model& model = builder.model;
@@ -211,11 +214,24 @@ Result<Model> read_with_assimp(const std::string& path, std::string_view bytes,
   if (!format.unit_stated && metres_per_unit != 0) unit = metres_per_unit;
   model.scale = Vec3(unit, unit, unit);
   warn_of_unused(model.warnings, path, format, up, metres_per_unit);
-  if (auto error = add_assimp_scene(builder, *scene, axes, format.reader == MeshReader::kIfc)) {
+  std::optional<KeyFrames> frames_of_file;
+  if (std::string_view(format.name) == "MD2" && frames_of(format, bytes) > 1 &&
+      asks_for_animation(options)) {
+    auto read = read_md2_frames(bytes, path);
+    if (!read) return read.error();
+    frames_of_file = std::move(read).value();
+  }
+  if (auto error = add_assimp_scene(builder, *scene, axes, format.reader == MeshReader::kIfc,
+                                    options, frames_of_file ? &*frames_of_file : nullptr)) {
     return *error;
   }
-  if (const std::uint32_t frames = frames_of(format, bytes); frames > 1) {
-    warn(model.warnings, "Frames after the first were left out.", path, frames - 1);
+  const std::uint32_t frames = frames_of(format, bytes);
+  if (frames > 1 && !frames_of_file) {
+    warn(model.warnings,
+         std::string_view(format.name) == "MD2"
+             ? "Frames after the first were left out; --time SECONDS takes others."
+             : "Frames after the first were left out.",
+         path, frames - 1);
   }
   if (format.reader == MeshReader::kDae) {
     const BrokenLinks broken = broken_links_of_collada(bytes);
@@ -236,7 +252,8 @@ Result<Model> read_with_assimp(const std::string& path, std::string_view bytes,
 
 bool is_assimp_file(const std::filesystem::path& path) { return mesh_format(path) != nullptr; }
 
-Result<Model> read_assimp(const std::filesystem::path& path, char up, double metres_per_unit) {
+Result<Model> read_assimp(const std::filesystem::path& path, char up, double metres_per_unit,
+                          const ReadOptions& options) {
   const std::string name = path.string();
   const MeshFormat* format = mesh_format(path);
   if (!format) {
@@ -249,7 +266,7 @@ Result<Model> read_assimp(const std::filesystem::path& path, char up, double met
   const char file_up = up != 0 ? up : format->up == UpAxis::kY ? 'y' : 'z';
   switch (format->reader) {
     case MeshReader::kGltf: {
-      auto model = read_gltf(text.value(), name);
+      auto model = read_gltf(text.value(), name, options);
       if (model) warn_of_unused(model.value().warnings, name, *format, up, metres_per_unit);
       return model;
     }
@@ -260,7 +277,7 @@ Result<Model> read_assimp(const std::filesystem::path& path, char up, double met
     case MeshReader::kOff:
       return read_off(text.value(), name, file_up, unit);
     default:
-      return read_with_assimp(name, text.value(), *format, up, metres_per_unit);
+      return read_with_assimp(name, text.value(), *format, up, metres_per_unit, options);
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include <gnomon/core/result.h>
 #include <gnomon/io/model.h>
+#include <gnomon/io/read_options.h>
 
 namespace gnomon {
 
@@ -34,14 +35,16 @@ bool is_assimp_file(const std::filesystem::path& path);
 //
 // Surface::object is the node's name, nested ones as "parent/child"; of IFC the element's
 // "IfcWall_<name>_<GUID>" alone. Surface::group is the mesh's name, of IFC the element's type
-// ("IfcWall"). Animated models stand as the file has them at rest (MD2: the first frame), with a
-// warning. Points and lines are left out with a warning, and so are IFC spaces, openings and
-// annotations. A file without faces gives a model without polygons. No other files than the model
-// and the buffers of glTF are opened; materials' pictures are not needed.
+// ("IfcWall"). Animated models stand as they do at options.time, else as the file has them at rest
+// (MD2: the first frame), with a warning. Points and lines are left out with a warning, and so are
+// IFC spaces, openings and annotations. A file without faces gives a model without polygons. No
+// other files than the model and the buffers of glTF are opened; with options.appearance, pictures
+// beside the model too.
 //
 // Errors name file and element: what cannot be read, coordinates that are not finite, indices out
 // of range, files that are cut off. Assimp's readers abort on some damaged files; each file is
 // tried out in a forked process first (tried_apart.h), so that it becomes an error here.
-Result<Model> read_assimp(const std::filesystem::path& path, char up, double metres_per_unit);
+Result<Model> read_assimp(const std::filesystem::path& path, char up, double metres_per_unit,
+                          const ReadOptions& options = {});
 
 }  // namespace gnomon

@@ -1,13 +1,16 @@
 #include <assimp/scene.h>
 #include <fmt/format.h>
+#include <gnomon/io/assimp_looks.h>
+#include <gnomon/io/assimp_rig.h>
 #include <gnomon/io/assimp_scene.h>
+#include <gnomon/io/choose_animation.h>
 #include <gnomon/io/digits.h>
 #include <gnomon/io/read_text.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
-#include <glm/mat4x4.hpp>
 #include <limits>
 #include <set>
 #include <string_view>
@@ -15,20 +18,6 @@
 
 namespace gnomon {
 namespace {
-
-using Mat4 = glm::dmat4;
-
-// Nodes within nodes; deeper ones would overflow the stack, and no modeller makes them.
-constexpr int kDeepestNode = 1000;
-
-Mat4 to_double(const aiMatrix4x4& m) {
-  return Mat4(m.a1, m.b1, m.c1, m.d1, m.a2, m.b2, m.c2, m.d2,  // glm's matrices go by columns
-              m.a3, m.b3, m.c3, m.d3, m.a4, m.b4, m.c4, m.d4);
-}
-
-std::string_view text(const aiString& s) {
-  return {s.data, std::min<std::size_t>(s.length, sizeof s.data - 1)};
-}
 
 bool is_finite(const Vec3& p) {
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
@@ -52,13 +41,24 @@ bool is_not_built(std::string_view type) {
 
 class Walk {
  public:
-  Walk(ModelBuilder& builder, const aiScene& scene, const SceneAxes& axes, bool ifc)
-      : builder_(builder), scene_(scene), axes_(axes), ifc_(ifc) {}
+  Walk(ModelBuilder& builder, const aiScene& scene, const SceneAxes& axes, bool ifc,
+       const ReadOptions& options, const KeyFrames* frames)
+      : builder_(builder),
+        scene_(scene),
+        axes_{axes.x, axes.y, axes.z},
+        ifc_(ifc),
+        options_(options),
+        frames_(frames),
+        rig_(options.rig ? *options.rig : own_rig_) {
+    rig_.axes = axes_;
+    if (options.appearance) looks_.emplace(scene, builder.model);
+  }
 
   std::optional<Error> run() {
     if (!scene_.mRootNode) return std::nullopt;
-    if (auto error = find_bones(*scene_.mRootNode, Mat4(1), 0)) return error;
-    if (auto error = visit(*scene_.mRootNode, Mat4(1), "", 0, "")) return error;
+    if (auto error = add_nodes(scene_, path(), rig_, nodes_)) return error;
+    if (auto error = find_pose()) return error;
+    if (auto error = visit(*scene_.mRootNode, "", 0, "")) return error;
     report();
     return std::nullopt;
   }
@@ -66,25 +66,30 @@ class Walk {
  private:
   const std::string& path() const { return builder_.model.report.path; }
 
-  // Where every named node stands, for the bones.
-  std::optional<Error> find_bones(const aiNode& node, const Mat4& parent, int depth) {
-    if (depth > kDeepestNode) {
-      return Error{fmt::format(
-          "{}: node {}: there are more than {} nodes within each other; flatten the model's nodes.",
-          path(), in_quotes(text(node.mName)), kDeepestNode)};
+  // The chosen animation, and where all nodes stand.
+  std::optional<Error> find_pose() {
+    rig_.clip_names = frames_ ? frames_->names : assimp_animation_names(scene_);
+    builder_.model.animations = rig_.clip_names.size();
+    const auto chosen = choose_animation(rig_.clip_names, options_, path());
+    if (!chosen) return chosen.error();
+    rig_.chosen = chosen.value();
+    if (rig_.chosen && frames_) {
+      rig_.clip = frames_->clips[*rig_.chosen];
+    } else if (rig_.chosen) {
+      auto clip = read_assimp_animation(scene_, *rig_.chosen, path(), nodes_, rig_.nodes,
+                                        builder_.model.warnings);
+      if (!clip) return clip.error();
+      rig_.clip = std::move(clip).value();
     }
-    const Mat4 here = parent * to_double(node.mTransformation);
-    node_of_.try_emplace(std::string(text(node.mName)), here);
-    for (unsigned k = 0; k < node.mNumChildren; ++k) {
-      if (auto error = find_bones(*node.mChildren[k], here, depth + 1)) return error;
-    }
+    pose_ = rig_.clip && !options_.rig ? pose_at(rig_.nodes, *rig_.clip, options_.time.value_or(0))
+                                       : pose_at_rest(rig_.nodes);
     return std::nullopt;
   }
 
-  std::optional<Error> visit(const aiNode& node, const Mat4& parent, std::string object,
-                             std::size_t whole, std::string type) {
-    const Mat4 here = parent * to_double(node.mTransformation);
-    const std::string_view name = text(node.mName);
+  std::optional<Error> visit(const aiNode& node, std::string object, std::size_t whole,
+                             std::string type) {
+    const std::uint32_t here = nodes_.of_node.at(&node);
+    const std::string_view name = text_of(node.mName);
     if (ifc_) {
       if (name.starts_with("Ifc") && name.find('_') != std::string_view::npos) {
         object = name;
@@ -111,7 +116,7 @@ class Walk {
         return error;
     }
     for (unsigned k = 0; k < node.mNumChildren; ++k) {
-      if (auto error = visit(*node.mChildren[k], here, object, whole, type)) return error;
+      if (auto error = visit(*node.mChildren[k], object, whole, type)) return error;
     }
     return std::nullopt;
   }
@@ -120,45 +125,13 @@ class Walk {
     if (mesh.mMaterialIndex >= scene_.mNumMaterials) return {};
     aiString name;
     scene_.mMaterials[mesh.mMaterialIndex]->Get(AI_MATKEY_NAME, name);
-    const std::string_view found = text(name);
+    const std::string_view found = text_of(name);
     return found == AI_DEFAULT_MATERIAL_NAME ? std::string() : std::string(found);
   }
 
-  // The mesh's vertices where the bones have them, in the scene of Assimp: the sum over the bones
-  // of weight * (where the bone is) * (mesh to bone). Weights are scaled to a sum of 1.
-  std::vector<Vec3> positions(const aiMesh& mesh, const Mat4& node) const {
-    std::vector<Vec3> at(mesh.mNumVertices);
-    std::vector<Vec3> bent(mesh.mNumBones > 0 ? mesh.mNumVertices : 0, Vec3(0));
-    std::vector<double> weight(bent.size(), 0.0);
-    for (unsigned b = 0; b < mesh.mNumBones; ++b) {
-      const aiBone& bone = *mesh.mBones[b];
-      const auto found = node_of_.find(std::string(text(bone.mName)));
-      if (found == node_of_.end()) continue;
-      const Mat4 m = found->second * to_double(bone.mOffsetMatrix);
-      for (unsigned w = 0; w < bone.mNumWeights; ++w) {
-        const aiVertexWeight& of = bone.mWeights[w];
-        if (of.mVertexId >= mesh.mNumVertices || !(of.mWeight > 0)) continue;
-        const aiVector3D& v = mesh.mVertices[of.mVertexId];
-        const Vec4 p = m * Vec4(v.x, v.y, v.z, 1.0);
-        bent[of.mVertexId] += double(of.mWeight) * Vec3(p.x, p.y, p.z);
-        weight[of.mVertexId] += double(of.mWeight);
-      }
-    }
-    for (unsigned k = 0; k < mesh.mNumVertices; ++k) {
-      if (!weight.empty() && weight[k] > 0) {
-        at[k] = bent[k] / weight[k];
-        continue;
-      }
-      const aiVector3D& v = mesh.mVertices[k];
-      const Vec4 p = node * Vec4(v.x, v.y, v.z, 1.0);
-      at[k] = Vec3(p.x, p.y, p.z);
-    }
-    return at;
-  }
-
-  std::optional<Error> add(const aiMesh& mesh, const Mat4& node, const std::string& object,
+  std::optional<Error> add(const aiMesh& mesh, std::uint32_t node, const std::string& object,
                            std::size_t whole, const std::string& type) {
-    const std::string_view mesh_name = text(mesh.mName);
+    const std::string_view mesh_name = text_of(mesh.mName);
     const auto where = [&] {
       return fmt::format("{}: object {}, mesh {}", path(), in_quotes(object, 200),
                          in_quotes(mesh_name));
@@ -167,9 +140,19 @@ class Walk {
       if (mesh.mNumVertices > 0) warn_of_points(where(), mesh.mNumVertices);
       return std::nullopt;
     }
-    bones_ = bones_ || mesh.mNumBones > 0;
-    morphs_ = morphs_ || mesh.mNumAnimMeshes > 0;
-    const std::vector<Vec3> at = positions(mesh, node);
+    RigPart part = rig_part(mesh, node, nodes_, options_.appearance, rig_.clip.has_value());
+    if (rig_.clip && frames_) {
+      part.frames = frames_->shapes(*rig_.chosen, options_.appearance);
+      if (part.frames[0].points.size() != part.shape.points.size()) {
+        return Error{fmt::format("{}: its frames do not fit its triangles; export the model again.",
+                                 where())};
+      }
+    }
+    morphs_ = morphs_ || (mesh.mNumAnimMeshes > 0 && !is_morphed(node));
+    const RigShape shape = posed(part, pose_);
+    const std::vector<Vec3>& at = shape.points;
+    const std::uint32_t material = looks_ ? looks_->material(mesh) : kNoMaterial;
+    const std::vector<glm::vec2> uv = looks_ ? looks_->uv(mesh) : std::vector<glm::vec2>();
     constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
     std::vector<std::uint32_t> vertex_of(at.size(), kNone);
     const std::uint32_t surface = builder_.surface(
@@ -202,18 +185,43 @@ class Walk {
             largest_ =
                 std::max({largest_, std::fabs(at[v][c]), std::fabs(double(raw[unsigned(c)]))});
           }
-          vertex_of[v] = builder_.vertex(
-              Vec3(glm_dot(axes_.x, at[v]), glm_dot(axes_.y, at[v]), glm_dot(axes_.z, at[v])));
+          vertex_of[v] = vertex(turned(axes_, at[v]), v);
         }
         ring[0].push_back(vertex_of[v]);
       }
       builder_.polygon(surface, number++, ring);
+      if (looks_) look(face, material, uv, shape.normals);
     }
+    if (options_.rig) rig_.parts.push_back(std::move(part));
     warn_of_points(where(), points_and_lines);
     return std::nullopt;
   }
 
-  static double glm_dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+  // Of the part that is being read. Those of a rig stay apart.
+  std::uint32_t vertex(const Vec3& p, unsigned of_part) {
+    if (!options_.rig) return builder_.vertex(p);
+    rig_.points.push_back({static_cast<std::uint32_t>(rig_.parts.size()), of_part});
+    builder_.model.vertices.push_back(p + Vec3(0));
+    return static_cast<std::uint32_t>(rig_.points.size() - 1);
+  }
+
+  void look(const aiFace& face, std::uint32_t material, const std::vector<glm::vec2>& uv,
+            const std::vector<Vec3>& normals) {
+    std::vector<glm::vec2> at;
+    std::vector<glm::vec3> upright;
+    for (unsigned k = 0; k < face.mNumIndices; ++k) {
+      if (!uv.empty()) at.push_back(uv[face.mIndices[k]]);
+      if (!normals.empty()) upright.emplace_back(turned(axes_, normals[face.mIndices[k]]));
+    }
+    add_look(builder_.model, material, at, upright);
+  }
+
+  bool is_morphed(std::uint32_t node) const {
+    if (!rig_.clip) return false;
+    return std::any_of(rig_.clip->tracks.begin(), rig_.clip->tracks.end(), [&](const RigTrack& t) {
+      return t.of == RigTrack::Of::weights && t.node == node;
+    });
+  }
 
   void warn_of_points(const std::string& where, std::size_t count) {
     warn(builder_.model.warnings, "Points and lines cast no shadow and were left out.", where,
@@ -222,8 +230,10 @@ class Walk {
 
   void report() {
     Model& m = builder_.model;
-    if (scene_.mNumAnimations > 0) {
-      warn(m.warnings, "Animations are not played: the model stands as the file has it at rest.",
+    if (scene_.mNumAnimations > 0 && !asks_for_animation(options_)) {
+      warn(m.warnings,
+           "Animations are not played: the model stands as the file has it at rest; --time SECONDS "
+           "poses it.",
            path(), scene_.mNumAnimations);
     }
     if (morphs_) {
@@ -243,19 +253,26 @@ class Walk {
 
   ModelBuilder& builder_;
   const aiScene& scene_;
-  const SceneAxes& axes_;
+  const std::array<Vec3, 3> axes_;
   bool ifc_;
-  bool bones_ = false, morphs_ = false;
+  const ReadOptions& options_;
+  const KeyFrames* frames_;
+  Rig own_rig_;
+  Rig& rig_;  // the one that is asked for, or our own
+  AssimpNodes nodes_;
+  RigPose pose_;
+  std::optional<AssimpLooks> looks_;
+  bool morphs_ = false;
   double largest_ = 0;
-  std::unordered_map<std::string, Mat4> node_of_;
   std::unordered_map<std::string, std::uint32_t> polygons_of_;
 };
 
 }  // namespace
 
 std::optional<Error> add_assimp_scene(ModelBuilder& builder, const aiScene& scene,
-                                      const SceneAxes& axes, bool ifc) {
-  return Walk(builder, scene, axes, ifc).run();
+                                      const SceneAxes& axes, bool ifc, const ReadOptions& options,
+                                      const KeyFrames* frames) {
+  return Walk(builder, scene, axes, ifc, options, frames).run();
 }
 
 }  // namespace gnomon

@@ -5,7 +5,9 @@
 
 #include <gnomon/core/result.h>
 #include <gnomon/io/assimp_formats.h>
+#include <gnomon/io/key_frames.h>
 #include <gnomon/io/model.h>
+#include <gnomon/io/read_options.h>
 
 struct aiScene;
 
@@ -18,10 +20,12 @@ struct SceneAxes {
 };
 
 // Adds all meshes under all nodes, transformed in double precision; bones are applied in the pose
-// that the file is in. Warns of points, lines, animations, of single precision that loses more than
+// of options.time, else in that of the file. `frames`: those of an MD2, which Assimp does not hand
+// over. Warns of points, lines, animations, of single precision that loses more than
 // kNoticeableLoss and, of IFC, of elements that are not built. Errors (file, object, mesh, vertex):
 // vertices that are not finite, indices out of range, nodes nested too deeply.
 std::optional<Error> add_assimp_scene(ModelBuilder& builder, const aiScene& scene,
-                                      const SceneAxes& axes, bool ifc);
+                                      const SceneAxes& axes, bool ifc, const ReadOptions& options,
+                                      const KeyFrames* frames = nullptr);
 
 }  // namespace gnomon

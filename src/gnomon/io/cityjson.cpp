@@ -167,11 +167,12 @@ void finish_report(Reading& reading) {
 }  // namespace
 
 Result<Model> read_cityjson(std::string_view text, const std::string& path,
-                            const std::string& lod) {
+                            const std::string& lod, const ReadOptions& options) {
   Reading reading;
   reading.path = path;
   reading.lod = lod;
   reading.builder.model.report.path = path;
+  if (options.appearance) reading.builder.model.looks.emplace();
 
   // A first line that is a whole JSON value, with more after it: CityJSONSeq. Else one document.
   std::string_view rest = text;

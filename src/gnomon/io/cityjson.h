@@ -7,6 +7,7 @@
 
 #include <gnomon/core/result.h>
 #include <gnomon/io/model.h>
+#include <gnomon/io/read_options.h>
 
 namespace gnomon {
 
@@ -20,6 +21,8 @@ namespace gnomon {
 // report; the caller decides whether that is an error. Errors (with file, object, geometry): not
 // JSON (line and column), not CityJSON, a version not known, wrong types, indices out of range,
 // coordinates that are not finite numbers, a broken transform.
-Result<Model> read_cityjson(std::string_view text, const std::string& path, const std::string& lod);
+// With options.appearance, materials (not textures) of the first theme come with the polygons.
+Result<Model> read_cityjson(std::string_view text, const std::string& path, const std::string& lod,
+                            const ReadOptions& options = {});
 
 }  // namespace gnomon

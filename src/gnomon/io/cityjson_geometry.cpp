@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <gnomon/io/cityjson_geometry.h>
+#include <gnomon/io/cityjson_looks.h>
 #include <gnomon/io/read_text.h>
 
 #include <algorithm>
@@ -131,6 +132,12 @@ struct Reader {
     return text(member(&(*list)[*k], key));
   }
 
+  std::uint32_t look(const Json* value) const {
+    const auto k = index_below(value, materials && materials->is_array() ? materials->size() : 0);
+    if (!k || !document.reading.builder.model.looks) return kNoMaterial;
+    return material_of(document.reading, (*materials)[*k]);
+  }
+
   bool polygon(const Json& boundary, const Json* semantic, const Json* material) const {
     if (!boundary.is_array()) return fail("a polygon must be a list of rings.");
     if (boundary.empty()) {
@@ -166,7 +173,8 @@ struct Reader {
     const std::string semantic_name = name(semantics, semantic, "type", "Semantic surfaces");
     polygons.add(std::move(rings),
                  document.reading.builder.surface(of.object, of.object_type, material_name,
-                                                  semantic_name, of.whole));
+                                                  semantic_name, of.whole),
+                 look(material));
     return true;
   }
 
@@ -248,7 +256,7 @@ bool read_instance(Document& document, const GeometryOf& of, const Json& instanc
 
 }  // namespace
 
-void ObjectPolygons::add(Rings rings, std::uint32_t surface) {
+void ObjectPolygons::add(Rings rings, std::uint32_t surface, std::uint32_t material) {
   const std::uint32_t number = next_number_++;
   const Rings cycles = cycles_of(rings);
   std::uint64_t key = hash(cycles);
@@ -258,16 +266,19 @@ void ObjectPolygons::add(Rings rings, std::uint32_t surface) {
     ++builder_.model.report.stored_twice;
     const auto& surfaces = builder_.model.surfaces;
     if (surfaces[there.surface].semantic.empty() && !surfaces[surface].semantic.empty()) {
-      there = {std::move(rings), surface, number};
+      there = {std::move(rings), surface, number, material};
     }
     return;
   }
   by_cycle_.emplace(key, taken_.size());
-  taken_.push_back({std::move(rings), surface, number});
+  taken_.push_back({std::move(rings), surface, number, material});
 }
 
 void ObjectPolygons::finish() {
-  for (const Taken& t : taken_) builder_.polygon(t.surface, t.number, t.rings);
+  for (const Taken& t : taken_) {
+    builder_.polygon(t.surface, t.number, t.rings);
+    if (builder_.model.looks) add_look(builder_.model, t.material, {}, {});
+  }
   if (!taken_.empty()) ++builder_.model.report.objects;
 }
 

@@ -28,14 +28,15 @@ using Rings = std::vector<std::vector<std::uint32_t>>;  // vertices of the model
 class ObjectPolygons {
  public:
   explicit ObjectPolygons(ModelBuilder& builder) : builder_(builder) {}
-  void add(Rings rings, std::uint32_t surface);
+  // `material`: of the looks, where the model has any.
+  void add(Rings rings, std::uint32_t surface, std::uint32_t material);
   // Hands the polygons to the builder, and counts them in its report.
   void finish();
 
  private:
   struct Taken {
     Rings rings;
-    std::uint32_t surface, number;
+    std::uint32_t surface, number, material;
   };
   ModelBuilder& builder_;
   std::vector<Taken> taken_;

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <set>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include <gnomon/io/cityjson_access.h>
@@ -31,6 +32,7 @@ struct Reading {
   std::vector<Vec3> template_vertices;
   std::set<Lod> lods;
   ModelBuilder builder;
+  std::unordered_map<std::string, std::uint32_t> materials;  // of looks, by their JSON text
   std::string error;  // the first one; reading stops there
 
   // Sets the error, with the file (and line) in front; returns false.

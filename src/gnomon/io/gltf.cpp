@@ -1,10 +1,14 @@
 #include <fmt/format.h>
+#include <gnomon/io/choose_animation.h>
 #include <gnomon/io/gltf.h>
+#include <gnomon/io/gltf_animation.h>
 #include <gnomon/io/gltf_file.h>
+#include <gnomon/io/gltf_looks.h>
+#include <gnomon/io/gltf_values.h>
 #include <gnomon/io/mesh_text.h>
 #include <gnomon/io/read_text.h>
+#include <gnomon/io/rig.h>
 
-#include <glm/mat4x4.hpp>
 #include <limits>
 #include <optional>
 #include <set>
@@ -17,28 +21,9 @@ namespace {
 using cityjson::element;
 using cityjson::member;
 using Json = nlohmann::json;
-using Mat4 = glm::dmat4;
 
 // Nodes within nodes; deeper ones would overflow the stack, and no modeller makes them.
 constexpr int kDeepestNode = 1000;
-
-std::size_t size_of(const Json* list) { return list && list->is_array() ? list->size() : 0; }
-
-Vec3 at(const std::vector<double>& numbers, std::size_t k) {
-  return {numbers[3 * k], numbers[3 * k + 1], numbers[3 * k + 2]};
-}
-
-// `count` finite numbers; nothing if they are not.
-std::optional<std::vector<double>> numbers_of(const Json* list, std::size_t count) {
-  if (size_of(list) != count) return {};
-  std::vector<double> out;
-  for (std::size_t k = 0; k < count; ++k) {
-    const auto d = cityjson::number(element(list, k));
-    if (!d) return {};
-    out.push_back(*d);
-  }
-  return out;
-}
 
 // Columns, as in the file.
 Mat4 matrix_of(const double* m) {
@@ -46,12 +31,15 @@ Mat4 matrix_of(const double* m) {
               m[13], m[14], m[15]);
 }
 
-// The node's own transform: `matrix`, or translation * rotation * scale.
-std::optional<Mat4> transform_of(const Json& node) {
+// The node's own transform: `matrix`, or translation * rotation * scale. Nothing where they are not
+// made of finite numbers.
+std::optional<RigNode> rig_node(const Json& node) {
+  RigNode out;
   if (const Json* matrix = member(&node, "matrix")) {
     const auto m = numbers_of(matrix, 16);
     if (!m) return {};
-    return matrix_of(m->data());
+    out.matrix = matrix_of(m->data());
+    return out;
   }
   std::vector<double> t = {0, 0, 0}, r = {0, 0, 0, 1}, s = {1, 1, 1};
   for (const auto& [key, into] : {std::pair<const char*, std::vector<double>*>{"translation", &t},
@@ -63,45 +51,44 @@ std::optional<Mat4> transform_of(const Json& node) {
     if (!found) return {};
     *into = std::move(*found);
   }
-  // A quaternion of single precision is not quite of length 1; its direction is meant.
   const double length = std::sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2] + r[3] * r[3]);
   if (!(length > 0) || !std::isfinite(length)) return {};
-  const double x = r[0] / length, y = r[1] / length, z = r[2] / length, w = r[3] / length;
-  return Mat4(s[0] * (1 - 2 * (y * y + z * z)), s[0] * 2 * (x * y + z * w),
-              s[0] * 2 * (x * z - y * w), 0, s[1] * 2 * (x * y - z * w),
-              s[1] * (1 - 2 * (x * x + z * z)), s[1] * 2 * (y * z + x * w), 0,
-              s[2] * 2 * (x * z + y * w), s[2] * 2 * (y * z - x * w),
-              s[2] * (1 - 2 * (x * x + y * y)), 0, t[0], t[1], t[2], 1);
-}
-
-Vec3 moved(const Mat4& m, const Vec3& p) {
-  const Vec4 q = m * Vec4(p, 1.0);
-  return {q.x, q.y, q.z};
+  out.translation = Vec3(t[0], t[1], t[2]);
+  out.rotation = Vec4(r[0], r[1], r[2], r[3]);
+  out.scale = Vec3(s[0], s[1], s[2]);
+  return out;
 }
 
 class GltfReader {
  public:
-  explicit GltfReader(const GltfFile& f) : f_(f) {
+  GltfReader(const GltfFile& f, const ReadOptions& options)
+      : f_(f), options_(options), rig_(options.rig ? *options.rig : own_rig_) {
     nodes_ = member(&f_.json, "nodes");
     meshes_ = member(&f_.json, "meshes");
     Model& m = builder_.model;
     m.report.path = f.path;
     m.report.format = f.glb ? "GLB 2.0" : "glTF 2.0";
+    if (options.appearance) looks_.emplace(f, m);
   }
 
   Result<Model> run() {
     auto roots = find_roots();
     if (!roots) return roots.error();
     for (const std::size_t r : roots.value()) {
-      if (auto error = place(r, Mat4(1), "", 0, 0)) return *error;
+      if (auto error = place(r, -1, "", 0, 0)) return *error;
     }
+    if (auto error = find_pose()) return *error;
     for (const Placed& p : placed_) {
       if (auto error = add_node(p)) return *error;
     }
     warn_of_nodes_outside();
     Model& m = builder_.model;
-    warn(m.warnings, "Animations are not played: the model stands as the file has it at rest.",
-         f_.path, size_of(member(&f_.json, "animations")));
+    if (!asks_for_animation(options_)) {
+      warn(m.warnings,
+           "Animations are not played: the model stands as the file has it at rest; --time SECONDS "
+           "poses it.",
+           f_.path, m.animations);
+    }
     const Json* used = member(&f_.json, "extensionsUsed");
     for (std::size_t k = 0; k < size_of(used); ++k) {
       const std::string name = cityjson::text(element(used, k));
@@ -124,7 +111,7 @@ class GltfReader {
  private:
   struct Placed {
     std::size_t node;
-    Mat4 world;
+    std::uint32_t rig_node;
     std::string object;
     std::size_t whole;  // see Surface
   };
@@ -173,7 +160,7 @@ class GltfReader {
   void warn_of_nodes_outside() {
     for (std::size_t k = 0; k < size_of(nodes_); ++k) {
       const Json* node = element(nodes_, k);
-      if (world_.contains(k) || !member(node, "mesh")) continue;
+      if (rig_node_of_.contains(k) || !member(node, "mesh")) continue;
       const std::string name = cityjson::text(member(node, "name"));
       warn(builder_.model.warnings,
            "Nodes with meshes that stand outside the file's default scene were left out.",
@@ -182,23 +169,43 @@ class GltfReader {
     }
   }
 
-  std::optional<Error> place(std::size_t k, const Mat4& parent, std::string object,
+  // The chosen animation, and where all nodes stand.
+  std::optional<Error> find_pose() {
+    Warnings& warnings = builder_.model.warnings;
+    rig_.clip_names = gltf_animation_names(f_);
+    builder_.model.animations = rig_.clip_names.size();
+    const auto chosen = choose_animation(rig_.clip_names, options_, f_.path);
+    if (!chosen) return chosen.error();
+    rig_.chosen = chosen.value();
+    if (rig_.chosen) {
+      auto clip = read_gltf_animation(f_, *rig_.chosen, rig_node_of_, rig_.nodes, warnings);
+      if (!clip) return clip.error();
+      rig_.clip = std::move(clip).value();
+    }
+    pose_ = rig_.clip && !options_.rig ? pose_at(rig_.nodes, *rig_.clip, options_.time.value_or(0))
+                                       : pose_at_rest(rig_.nodes);
+    return std::nullopt;
+  }
+
+  std::optional<Error> place(std::size_t k, std::int32_t parent, std::string object,
                              std::size_t whole, int depth) {
     const Json* node = element(nodes_, k);
-    if (world_.contains(k)) {
+    if (rig_node_of_.contains(k)) {
       return damaged(fmt::format("node {} stands under two nodes or within itself.", k));
     }
     if (depth > kDeepestNode) {
       return damaged(fmt::format(
           "node {}: more than {} nodes stand within each other; flatten them.", k, kDeepestNode));
     }
-    const auto own = node && node->is_object() ? transform_of(*node) : std::nullopt;
+    auto own = node && node->is_object() ? rig_node(*node) : std::nullopt;
     if (!own) {
       return damaged(fmt::format(
           "node {}: its matrix, translation, rotation or scale is not made of finite numbers.", k));
     }
-    const Mat4 here = parent * *own;
-    world_.emplace(k, here);
+    const auto here = static_cast<std::uint32_t>(rig_.nodes.size());
+    own->parent = parent;
+    rig_.nodes.push_back(*own);
+    rig_node_of_.emplace(k, here);
     const std::string name = cityjson::text(member(node, "name"));
     if (!name.empty()) object += (object.empty() ? "" : "/") + name;
     if (whole == 0) whole = object.size();
@@ -210,7 +217,9 @@ class GltfReader {
         return damaged(fmt::format("node {}: there is no node {} for its child.", k,
                                    cityjson::kind_of(element(children, c))));
       }
-      if (auto error = place(*child, here, object, whole, depth + 1)) return error;
+      if (auto error = place(*child, static_cast<std::int32_t>(here), object, whole, depth + 1)) {
+        return error;
+      }
     }
     return std::nullopt;
   }
@@ -250,11 +259,14 @@ class GltfReader {
     const Json* mode_value = member(&primitive, "mode");
     const auto mode = mode_value ? cityjson::index_below(mode_value, 7) : std::size_t{4};
     if (!mode) return damaged(fmt::format("{}: its mode is not one of glTF's.", where));
-    auto raw = read_accessor(f_, position, "VEC3");
+    const auto raw = read_accessor(f_, position, "VEC3");
     if (!raw) return raw.error();
-    std::vector<double> positions = std::move(raw).value();
-    const std::size_t count = positions.size() / 3;
-    if (auto error = apply_targets(node, mesh, primitive, positions)) return error;
+    RigPart part;
+    part.node = p.rig_node;
+    part.shape.points = vectors_of(raw.value());
+    const std::size_t count = part.shape.points.size();
+    if (looks_) part.shape.normals = looks_->normals(*attributes, count, where);
+    if (auto error = find_targets(node, mesh, primitive, part)) return error;
     std::vector<std::uint32_t> indices;
     if (auto error = find_indices(primitive, where, count, indices)) return error;
     if (*mode < 4) {
@@ -269,11 +281,16 @@ class GltfReader {
       warn(model.warnings, "Vertices left over at the end of a list of triangles were left out.",
            damaged(where).message, indices.size() % 3);
     }
-    std::vector<Vec3> placed;
-    for (std::size_t k = 0; k < count; ++k) placed.push_back(moved(p.world, at(positions, k)));
-    if (auto error = apply_skin(node, *attributes, where, positions, placed)) return error;
-    return add_triangles(*mode, indices, positions, placed, object, p.whole, mesh, primitive,
-                         where);
+    if (auto error = find_skin(node, *attributes, where, part)) return error;
+    const RigShape placed = posed(part, pose_);
+    std::optional<GltfCorners> corners;
+    if (looks_) corners = looks_->corners(primitive, count, where);
+    if (auto error = add_triangles(*mode, indices, part.shape.points, placed, object, p.whole, mesh,
+                                   primitive, corners, where)) {
+      return error;
+    }
+    if (options_.rig) rig_.parts.push_back(std::move(part));
+    return std::nullopt;
   }
 
   std::optional<Error> find_indices(const Json& primitive, const std::string& where,
@@ -296,32 +313,43 @@ class GltfReader {
     return std::nullopt;
   }
 
-  // Morph targets, with the weights that the file has at rest.
-  std::optional<Error> apply_targets(const Json& node, const Json& mesh, const Json& primitive,
-                                     std::vector<double>& positions) const {
+  // Morph targets; those that have no weight in this pose are not read.
+  std::optional<Error> find_targets(const Json& node, const Json& mesh, const Json& primitive,
+                                    RigPart& part) const {
     const Json* targets = member(&primitive, "targets");
     const Json* weights =
         member(&node, "weights") ? member(&node, "weights") : member(&mesh, "weights");
+    const std::vector<double>& animated = pose_.weights[part.node];
     for (std::size_t k = 0; k < size_of(targets); ++k) {
-      const double weight = cityjson::number(element(weights, k)).value_or(0);
-      const Json* of = member(element(targets, k), "POSITION");
-      if (weight == 0 || !of) continue;
-      const auto moves = read_accessor(f_, of, "VEC3");
-      if (!moves) return moves.error();
-      if (moves.value().size() != positions.size()) {
-        return damaged(
-            fmt::format("morph target {} has another number of vertices than its mesh.", k));
+      part.weights.push_back(cityjson::number(element(weights, k)).value_or(0));
+      part.targets.emplace_back();
+      const double weight = animated.empty()      ? part.weights[k]
+                            : k < animated.size() ? animated[k]
+                                                  : 0.0;
+      if (weight == 0 && !options_.rig) continue;
+      RigShape& target = part.targets.back();
+      for (const auto& [key, into] :
+           {std::pair<const char*, std::vector<Vec3>*>{"POSITION", &target.points},
+            {"NORMAL", &target.normals}}) {
+        const Json* of = member(element(targets, k), key);
+        if (!of || (into == &target.normals && part.shape.normals.empty())) continue;
+        const auto moves = read_accessor(f_, of, "VEC3");
+        if (!moves) return moves.error();
+        *into = vectors_of(moves.value());
+        if (into->size() != part.shape.points.size()) {
+          return damaged(
+              fmt::format("morph target {} has another number of vertices than its mesh.", k));
+        }
       }
-      for (std::size_t c = 0; c < positions.size(); ++c) positions[c] += weight * moves.value()[c];
     }
     return std::nullopt;
   }
 
   // Vertices with weights go where their joints are, whatever the node of the mesh is
   // (glTF, 3.7.3).
-  std::optional<Error> apply_skin(const Json& node, const Json& attributes,
-                                  const std::string& where, const std::vector<double>& positions,
-                                  std::vector<Vec3>& placed) const {
+  std::optional<Error> find_skin(const Json& node, const Json& attributes, const std::string& where,
+                                 RigPart& part) const {
+    const std::size_t count = part.shape.points.size();
     if (!member(&node, "skin")) return std::nullopt;
     const Json* skins = member(&f_.json, "skins");
     const auto s = cityjson::index_below(member(&node, "skin"), size_of(skins));
@@ -336,18 +364,15 @@ class GltfReader {
         return damaged(fmt::format("skin {} has fewer inverseBindMatrices than joints.", *s));
       }
     }
-    std::vector<Mat4> bones;
     for (std::size_t j = 0; j < size_of(joints); ++j) {
       const auto joint = cityjson::index_below(element(joints, j), size_of(nodes_));
-      const auto found = joint ? world_.find(*joint) : world_.end();
-      if (found == world_.end()) {
+      const auto found = joint ? rig_node_of_.find(*joint) : rig_node_of_.end();
+      if (found == rig_node_of_.end()) {
         return damaged(fmt::format("skin {}: joint {} is no node of the scene.", *s, j));
       }
-      bones.push_back(inverse.empty() ? found->second
-                                      : found->second * matrix_of(inverse.data() + 16 * j));
+      part.bones.push_back(
+          {found->second, inverse.empty() ? Mat4(1) : matrix_of(inverse.data() + 16 * j)});
     }
-    std::vector<Vec3> bent(placed.size(), Vec3(0));
-    std::vector<double> sum(placed.size(), 0.0);
     for (int set = 0; member(&attributes, fmt::format("JOINTS_{}", set).c_str()); ++set) {
       const auto of =
           read_accessor(f_, member(&attributes, fmt::format("JOINTS_{}", set).c_str()), "VEC4");
@@ -355,31 +380,29 @@ class GltfReader {
       const auto by =
           read_accessor(f_, member(&attributes, fmt::format("WEIGHTS_{}", set).c_str()), "VEC4");
       if (!by) return by.error();
-      if (of.value().size() != 4 * placed.size() || by.value().size() != of.value().size()) {
+      if (of.value().size() != 4 * count || by.value().size() != of.value().size()) {
         return damaged(
             fmt::format("{}: it has another number of joints or weights than vertices.", where));
       }
       for (std::size_t k = 0; k < of.value().size(); ++k) {
         const double weight = by.value()[k], bone = of.value()[k];
         if (weight == 0) continue;
-        if (!(bone >= 0 && bone < double(bones.size()) && bone == std::floor(bone))) {
+        if (!(bone >= 0 && bone < double(part.bones.size()) && bone == std::floor(bone))) {
           return damaged(fmt::format("{}: vertex {} names joint {}, but there are {}.", where,
-                                     k / 4, bone, bones.size()));
+                                     k / 4, bone, part.bones.size()));
         }
-        bent[k / 4] += weight * moved(bones[static_cast<std::size_t>(bone)], at(positions, k / 4));
-        sum[k / 4] += weight;
+        part.influences.push_back(
+            {static_cast<std::uint32_t>(k / 4), static_cast<std::uint32_t>(bone), weight});
       }
-    }
-    for (std::size_t k = 0; k < placed.size(); ++k) {
-      if (sum[k] != 0) placed[k] = bent[k] / sum[k];
     }
     return std::nullopt;
   }
 
   std::optional<Error> add_triangles(std::size_t mode, const std::vector<std::uint32_t>& indices,
-                                     const std::vector<double>& raw,
-                                     const std::vector<Vec3>& placed, const std::string& object,
-                                     std::size_t whole, const Json& mesh, const Json& primitive,
+                                     const std::vector<Vec3>& raw, const RigShape& placed,
+                                     const std::string& object, std::size_t whole, const Json& mesh,
+                                     const Json& primitive,
+                                     const std::optional<GltfCorners>& corners,
                                      const std::string& where) {
     const Json* materials = member(&f_.json, "materials");
     const auto material = cityjson::index_below(member(&primitive, "material"), size_of(materials));
@@ -388,7 +411,7 @@ class GltfReader {
         material ? cityjson::text(member(element(materials, *material), "name")) : std::string(),
         "", whole);
     constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-    std::vector<std::uint32_t> vertex_of(placed.size(), kNone);
+    std::vector<std::uint32_t> vertex_of(placed.points.size(), kNone);
     std::uint32_t& number = polygons_of_[object];
     std::vector<std::vector<std::uint32_t>> ring(1);
     const std::size_t step = mode == 4 ? 3 : 1;
@@ -403,36 +426,51 @@ class GltfReader {
       ring[0].clear();
       for (const std::uint32_t v : of) {
         if (vertex_of[v] == kNone) {
-          if (!is_finite(placed[v]) || !is_finite(at(raw, v))) {
-            const Vec3 p = at(raw, v);
+          if (!is_finite(placed.points[v]) || !is_finite(raw[v])) {
+            const Vec3& p = raw[v];
             return damaged(fmt::format(
                 "{}: vertex {} ({}, {}, {}) is not finite; repair the model and export it again.",
                 where, v, p.x, p.y, p.z));
           }
-          vertex_of[v] = builder_.vertex(z_up(placed[v], 'y'));
+          vertex_of[v] = vertex(z_up(placed.points[v], 'y'), v);
         }
         ring[0].push_back(vertex_of[v]);
       }
       builder_.polygon(surface, number++, ring);
+      if (corners) add_look(builder_.model, *corners, placed.normals, of);
     }
     return std::nullopt;
   }
 
+  // Of the part that is being read. Those of a rig stay apart.
+  std::uint32_t vertex(const Vec3& p, std::uint32_t of_part) {
+    if (!options_.rig) return builder_.vertex(p);
+    rig_.points.push_back({static_cast<std::uint32_t>(rig_.parts.size()), of_part});
+    builder_.model.vertices.push_back(p + Vec3(0));
+    return static_cast<std::uint32_t>(rig_.points.size() - 1);
+  }
+
   const GltfFile& f_;
+  const ReadOptions& options_;
   ModelBuilder builder_;
+  Rig own_rig_;
+  Rig& rig_;  // the one that is asked for, or our own
+  RigPose pose_;
+  std::optional<GltfLooks> looks_;
   const Json* nodes_ = nullptr;
   const Json* meshes_ = nullptr;
-  std::unordered_map<std::size_t, Mat4> world_;  // of every node of the scene
-  std::vector<Placed> placed_;                   // nodes with meshes, in the scene's order
+  std::unordered_map<std::size_t, std::uint32_t> rig_node_of_;  // of every node of the scene
+  std::vector<Placed> placed_;  // nodes with meshes, in the scene's order
   std::unordered_map<std::string, std::uint32_t> polygons_of_;
 };
 
 }  // namespace
 
-Result<Model> read_gltf(std::string_view bytes, const std::string& path) {
+Result<Model> read_gltf(std::string_view bytes, const std::string& path,
+                        const ReadOptions& options) {
   const auto file = open_gltf(bytes, path);
   if (!file) return file.error();
-  return GltfReader(file.value()).run();
+  return GltfReader(file.value(), options).run();
 }
 
 }  // namespace gnomon

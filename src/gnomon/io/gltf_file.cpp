@@ -59,25 +59,6 @@ std::optional<std::string> from_base64(std::string_view text) {
   return bytes;
 }
 
-std::string percent_decoded(std::string_view uri) {
-  const auto hex = [](char c) {
-    return c >= '0' && c <= '9'   ? c - '0'
-           : c >= 'a' && c <= 'f' ? c - 'a' + 10
-           : c >= 'A' && c <= 'F' ? c - 'A' + 10
-                                  : -1;
-  };
-  std::string out;
-  for (std::size_t k = 0; k < uri.size(); ++k) {
-    if (uri[k] == '%' && k + 2 < uri.size() && hex(uri[k + 1]) >= 0 && hex(uri[k + 2]) >= 0) {
-      out += static_cast<char>(hex(uri[k + 1]) * 16 + hex(uri[k + 2]));
-      k += 2;
-    } else {
-      out += uri[k];
-    }
-  }
-  return out;
-}
-
 // A buffer's own file; bytes, so that nothing in it is taken for a byte order mark.
 Result<std::string> read_beside(const std::string& path, const std::string& uri,
                                 const std::string& name) {
@@ -107,10 +88,7 @@ Result<std::string> read_buffer(const GltfFile& f, std::size_t k,
   if (!uri && k == 0 && chunk) {
     bytes = *chunk;
   } else if (const std::string where = cityjson::text(uri); where.starts_with("data:")) {
-    const std::size_t comma = where.find(";base64,");
-    auto decoded = comma == std::string::npos
-                       ? std::nullopt
-                       : from_base64(std::string_view(where).substr(comma + 8));
+    auto decoded = bytes_of_data_uri(where);
     if (!decoded) {
       return Error{fmt::format("{}: {}: its data are no base64; export it again.", f.path, name)};
     }
@@ -270,7 +248,8 @@ std::optional<Error> locate(const GltfFile& f, const Json* owner, const std::str
 }
 
 std::size_t components_of(std::string_view type) {
-  return type == "SCALAR" ? 1 : type == "VEC3" ? 3 : type == "VEC4" ? 4 : 16;
+  if (type == "SCALAR") return 1;
+  return type == "VEC2" ? 2 : type == "VEC3" ? 3 : type == "VEC4" ? 4 : 16;
 }
 
 }  // namespace
@@ -363,6 +342,43 @@ Result<std::vector<double>> read_accessor(const GltfFile& file, const Json* inde
     }
   }
   return numbers;
+}
+
+std::string percent_decoded(std::string_view uri) {
+  const auto hex = [](char c) {
+    return c >= '0' && c <= '9'   ? c - '0'
+           : c >= 'a' && c <= 'f' ? c - 'a' + 10
+           : c >= 'A' && c <= 'F' ? c - 'A' + 10
+                                  : -1;
+  };
+  std::string out;
+  for (std::size_t k = 0; k < uri.size(); ++k) {
+    if (uri[k] == '%' && k + 2 < uri.size() && hex(uri[k + 1]) >= 0 && hex(uri[k + 2]) >= 0) {
+      out += static_cast<char>(hex(uri[k + 1]) * 16 + hex(uri[k + 2]));
+      k += 2;
+    } else {
+      out += uri[k];
+    }
+  }
+  return out;
+}
+
+std::optional<std::string> bytes_of_data_uri(std::string_view uri) {
+  const std::size_t comma = uri.find(";base64,");
+  return comma == std::string_view::npos ? std::nullopt : from_base64(uri.substr(comma + 8));
+}
+
+Result<std::string> read_buffer_view(const GltfFile& f, const Json* index) {
+  const Json* views = member(&f.json, "bufferViews");
+  const auto v = cityjson::index_below(index, views && views->is_array() ? views->size() : 0);
+  const Json* view = v ? element(views, *v) : nullptr;
+  const auto buffer = cityjson::index_below(member(view, "buffer"), f.buffers.size());
+  const auto at = offset(member(view, "byteOffset"), 0);
+  const auto length = offset(member(view, "byteLength"), kLargestOffset);
+  if (!buffer || !at || !length || *at + *length > f.buffers[*buffer].size()) {
+    return Error{"its bytes are not in the file"};
+  }
+  return f.buffers[*buffer].substr(*at, *length);
 }
 
 }  // namespace gnomon

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,9 +25,18 @@ struct GltfFile {
 Result<GltfFile> open_gltf(std::string_view bytes, const std::string& path);
 
 // All numbers of an accessor, element after element, sparse values put in and normalized ones
-// scaled. `type`: what it must be ("SCALAR", "VEC3", "VEC4", "MAT4"). Errors name the accessor:
-// another type, reaching beyond its bufferView or that beyond its buffer.
+// scaled. `type`: what it must be ("SCALAR", "VEC2", "VEC3", "VEC4", "MAT4"). Errors name the
+// accessor: another type, reaching beyond its bufferView or that beyond its buffer.
 Result<std::vector<double>> read_accessor(const GltfFile& file, const nlohmann::json* index,
                                           std::string_view type);
+
+// The bytes of a bufferView. The error is why not, without a file: for a warning.
+Result<std::string> read_buffer_view(const GltfFile& file, const nlohmann::json* index);
+
+// Of "data:...;base64,..."; nothing if it is none.
+std::optional<std::string> bytes_of_data_uri(std::string_view uri);
+
+// "%20" becomes a blank.
+std::string percent_decoded(std::string_view uri);
 
 }  // namespace gnomon

@@ -228,6 +228,7 @@ void place_ifc(Model& model, const IfcPlace& place) {
     return;
   }
   const IfcMapConversion& c = *place.conversion;
+  turn_normals(model, -std::atan2(c.x_axis_ordinate, c.x_axis_abscissa));
   const double a = c.scale * c.x_axis_abscissa, o = c.scale * c.x_axis_ordinate;
   for (Vec3& v : model.vertices) {
     const Vec3 local = v * model.scale + model.translate;

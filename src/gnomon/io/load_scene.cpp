@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <gnomon/core/exact.h>
+#include <gnomon/io/add_model.h>
 #include <gnomon/io/crs.h>
 #include <gnomon/io/file_place.h>
 #include <gnomon/io/load_scene.h>
@@ -9,12 +10,12 @@
 #include <gnomon/io/scene_check.h>
 #include <gnomon/io/scene_file.h>
 #include <gnomon/io/scene_ground.h>
-#include <gnomon/io/triangulate.h>
 #include <gnomon/mesh/weld.h>
 #include <gnomon/scene/select.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace gnomon {
@@ -76,62 +77,6 @@ Vec3 origin_of(const ModelBox& box) {
          Vec3(0.0);  // no -0
 }
 
-bool is_triangle(const Model& m, const ModelPolygon& p) {
-  const std::uint32_t first = m.ring_begin[p.first_ring];
-  if (p.last_ring - p.first_ring != 1 || m.ring_begin[p.last_ring] - first != 3) return false;
-  const std::uint32_t* c = m.corners.data() + first;
-  return c[0] != c[1] && c[1] != c[2] && c[2] != c[0];
-}
-
-// Appends the model's triangles to the scene. `file`: its number among the scene's files; `city`:
-// its groups are CityJSON's words.
-void add_model(Scene& scene, Model& m, std::uint32_t file, bool city) {
-  TriMesh& mesh = scene.mesh;
-  const auto first_vertex = static_cast<std::uint32_t>(mesh.positions.size());
-  const auto first_surface = static_cast<std::uint32_t>(scene.surfaces.size());
-  // Equal numbers in the file must give equal positions, and small ones exact differences: the
-  // large offsets are subtracted from each other first.
-  const Vec3 offset = m.translate - scene.frame.origin;
-  mesh.positions.reserve(mesh.positions.size() + m.vertices.size());
-  for (const Vec3& v : m.vertices) mesh.positions.push_back(v * m.scale + offset);
-
-  std::vector<std::vector<std::uint32_t>> rings;
-  for (const ModelPolygon& p : m.polygons) {
-    if (is_triangle(m, p)) {  // as triangulate() has it; surface models have millions of them
-      const std::uint32_t* c = m.corners.data() + m.ring_begin[p.first_ring];
-      mesh.triangles.push_back({first_vertex + c[0], first_vertex + c[1], first_vertex + c[2]});
-      scene.surface_of.push_back(first_surface + p.surface);
-      ++m.report.triangles;
-      continue;
-    }
-    rings.clear();
-    for (std::uint32_t r = p.first_ring; r < p.last_ring; ++r) {
-      auto& ring = rings.emplace_back();
-      for (std::uint32_t c = m.ring_begin[r]; c < m.ring_begin[r + 1]; ++c) {
-        ring.push_back(first_vertex + m.corners[c]);
-      }
-    }
-    const Triangulation result = triangulate(mesh.positions, rings);
-    for (const Triangle& t : result.triangles) {
-      mesh.triangles.push_back(t);
-      scene.surface_of.push_back(first_surface + p.surface);
-    }
-    m.report.triangles += result.triangles.size();
-    if (result.problem.empty()) continue;
-    warn(scene.warnings,
-         result.triangles.empty()
-             ? "Polygons of fewer than 3 distinct corners or without an area were left out."
-             : "Polygons that are not simple could not be triangulated exactly.",
-         fmt::format("{}: {}", name_of(m, p), result.problem));
-  }
-  for (Surface& s : m.surfaces) {
-    s.file = file;
-    s.city = city;
-    scene.surfaces.push_back(std::move(s));
-  }
-  append(scene.warnings, m.warnings);
-}
-
 std::string element_of(const Scene& scene, std::uint32_t surface) {
   const Surface& s = scene.surfaces[surface];
   return !s.object.empty()  ? fmt::format("object {}", in_quotes(s.object, 200))
@@ -142,7 +87,17 @@ std::string element_of(const Scene& scene, std::uint32_t surface) {
 // Welds, and warns of what went.
 std::size_t weld_scene(Scene& scene) {
   const std::vector<std::uint32_t> before = scene.surface_of;
-  const WeldReport report = weld(scene.mesh, scene.surface_of);
+  WeldReport report;
+  if (scene.appearance.material_of.empty()) {
+    report = weld(scene.mesh, scene.surface_of);
+  } else {
+    std::vector<std::uint32_t> kept(before.size());
+    std::iota(kept.begin(), kept.end(), 0u);
+    report = weld(scene.mesh, kept);
+    keep_triangles(scene.appearance, kept);
+    for (std::size_t t = 0; t < kept.size(); ++t) scene.surface_of[t] = before[kept[t]];
+    scene.surface_of.resize(kept.size());
+  }
   warn(scene.warnings, "Triangles without area were dropped.",
        report.zero_area_triangles ? element_of(scene, before[report.first_zero_area])
                                   : std::string(),
@@ -436,6 +391,7 @@ Result<LoadedScene> load_scene(const std::vector<std::filesystem::path>& paths,
 
   for (SceneFile& f : files) loaded.files.push_back(std::move(f.model->report));
 
+  if (options.appearance) finish_looks(scene.appearance, scene.mesh.triangles.size());
   tell(options, "joining vertices");
   loaded.zero_area_triangles = weld_scene(scene);
   if (scene.mesh.triangles.empty()) {
@@ -446,6 +402,7 @@ Result<LoadedScene> load_scene(const std::vector<std::filesystem::path>& paths,
   auto ground = add_ground(scene, {options.ground, ground_extent(scene, options)});
   if (!ground) return ground.error();
   loaded.ground = std::move(ground).value();
+  fill_up(scene.appearance, scene.mesh.triangles.size());
   for (const Vec3& v : scene.mesh.positions) {
     if (!(std::fabs(v.x) <= kLargestCoordinate && std::fabs(v.y) <= kLargestCoordinate &&
           std::fabs(v.z) <= kLargestCoordinate)) {

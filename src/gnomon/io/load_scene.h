@@ -36,6 +36,8 @@ struct FileOptions {
   std::optional<double> north = {};  // radians
   std::string crs = {};              // an error where the file names another one itself
   std::optional<Site> site = {};     // an error where the file has a CRS; so is north
+  std::optional<double> time = {};
+  std::string animation = {};
 };
 
 struct LoadOptions {
@@ -51,6 +53,13 @@ struct LoadOptions {
   std::vector<FileOptions> for_files = {};  // stronger than the above; the last that matches wins
   FootprintOptions footprints = {};
   RasterMesh surface = RasterMesh::triangles;
+  // Fill Scene::appearance, and read pictures and .mtl files for it. No triangle is another one.
+  bool appearance = false;
+  // Animated models stand as they do then, seconds from the start of the animation; more than its
+  // length goes round, less than 0 is an error. Empty: at rest, as the file has them.
+  std::optional<double> time = {};
+  std::string animation =
+      {};  // its name, or its number from 0; empty: the first. Without a time: 0
   std::vector<std::string> above_ground =
       {};                                     // globs over rasters' names: heights above the ground
   std::string ground = "auto";                // see GroundOptions::mode

@@ -14,6 +14,7 @@
 #include <gnomon/core/vec.h>
 #include <gnomon/core/warnings.h>
 #include <gnomon/io/file_report.h>
+#include <gnomon/io/model_looks.h>
 #include <gnomon/scene/scene.h>
 
 namespace gnomon {
@@ -38,6 +39,8 @@ struct Model {
       0};  // ring r is corners[ring_begin[r] .. ring_begin[r + 1])
   std::vector<ModelPolygon> polygons;
   std::vector<Surface> surfaces;
+  std::optional<ModelLooks> looks;  // where they were asked for
+  std::size_t animations = 0;       // that the file has
   // Where the origin of local coordinates stands and which way their +y looks (radians clockwise
   // from +y to true north), where the file says so (IFC); not used where report.crs is set.
   std::optional<Place> site;

@@ -1,10 +1,13 @@
 #include <fmt/format.h>
 #include <gnomon/io/obj.h>
 #include <gnomon/io/obj_lines.h>
+#include <gnomon/io/obj_looks.h>
 #include <gnomon/io/read_text.h>
 #include <tiny_obj_loader.h>
 
 #include <istream>
+#include <map>
+#include <optional>
 #include <set>
 #include <streambuf>
 #include <type_traits>
@@ -33,6 +36,7 @@ struct Building {
   std::vector<std::vector<long long>> faces;  // indices into vertices, which may still be to come
   std::vector<std::uint32_t> surfaces;        // per face
   std::string object, group, material;
+  std::optional<ObjLooks> looks;
 };
 
 std::string trimmed(const char* name) {
@@ -60,7 +64,35 @@ void on_face(void* user, tinyobj::index_t* indices, int count) {
     face.push_back(index > 0 ? index - 1 : static_cast<long long>(b.vertices.size()) + index);
   }
   b.surfaces.push_back(b.builder.surface(b.object, b.group, b.material, ""));
+  if (!b.looks) return;
+  b.looks->material_names.push_back(b.material);
+  for (int k = 0; k < count; ++k) {
+    b.looks->corner(indices[k].texcoord_index, indices[k].normal_index);
+  }
 }
+
+void on_texcoord(void* user, double u, double v, double) {
+  building(user).looks->uv.emplace_back(u, 1 - v);  // v counts up from the picture's lower edge
+}
+
+void on_normal(void* user, double x, double y, double z) {
+  Building& b = building(user);
+  b.looks->normals.push_back(b.up == 'y' ? glm::vec3(x, -z, y) : glm::vec3(x, y, z));
+}
+
+// tinyobjloader asks for a library of materials; which one is all that is wanted here.
+class Libraries : public tinyobj::MaterialReader {
+ public:
+  explicit Libraries(ObjLooks& looks) : looks_(looks) {}
+  bool operator()(const std::string& name, std::vector<tinyobj::material_t>*,
+                  std::map<std::string, int>*, std::string*, std::string*) override {
+    looks_.libraries.push_back(name);
+    return false;  // so that all names of the line come, whether one or a file with blanks is meant
+  }
+
+ private:
+  ObjLooks& looks_;
+};
 
 void on_material(void* user, const char* name, int) { building(user).material = trimmed(name); }
 void on_object(void* user, const char* name) { building(user).object = trimmed(name); }
@@ -76,7 +108,7 @@ void on_group(void* user, const char** names, int count) {
 }  // namespace
 
 Result<Model> read_obj(std::string_view text, const std::string& path, char up,
-                       double metres_per_unit) {
+                       double metres_per_unit, const ReadOptions& options) {
   auto checked = check_obj_lines(text, path);
   if (!checked) return checked.error();
   ObjLines lines = std::move(checked).value();
@@ -90,11 +122,18 @@ Result<Model> read_obj(std::string_view text, const std::string& path, char up,
   callbacks.usemtl_cb = on_material;
   callbacks.object_cb = on_object;
   callbacks.group_cb = on_group;
+  std::optional<Libraries> libraries;
+  if (options.appearance) {
+    b.looks.emplace();
+    callbacks.texcoord_cb = on_texcoord;
+    callbacks.normal_cb = on_normal;
+    libraries.emplace(*b.looks);
+  }
   TextBuffer buffer(lines.text);
   std::istream stream(&buffer);
   std::string warnings, errors;
-  const bool read =
-      tinyobj::LoadObjWithCallback(stream, callbacks, &b, nullptr, &warnings, &errors);
+  const bool read = tinyobj::LoadObjWithCallback(
+      stream, callbacks, &b, libraries ? &*libraries : nullptr, &warnings, &errors);
   if (!read || !errors.empty() || b.faces.size() != lines.face_line.size() ||
       b.vertices.size() != lines.vertices) {
     return Error{fmt::format("{}: tinyobjloader cannot read the file: {}.", path,
@@ -105,6 +144,7 @@ Result<Model> read_obj(std::string_view text, const std::string& path, char up,
   model.report.path = path;
   model.report.format = "OBJ";
   model.scale = Vec3(metres_per_unit, metres_per_unit, metres_per_unit);
+  if (b.looks) b.looks->begin(model);
   std::vector<std::vector<std::uint32_t>> ring(1);
   for (std::size_t f = 0; f < b.faces.size(); ++f) {
     ring[0].clear();
@@ -116,6 +156,7 @@ Result<Model> read_obj(std::string_view text, const std::string& path, char up,
       ring[0].push_back(b.builder.vertex(b.vertices[static_cast<std::size_t>(v)]));
     }
     b.builder.polygon(b.surfaces[f], lines.face_line[f], ring);
+    if (b.looks) b.looks->face(model, f, ring[0].size());
   }
   warn(model.warnings, "Points and lines cast no shadow and were left out.",
        fmt::format("{}: line {}", path, lines.first_point_or_line), lines.points_and_lines);

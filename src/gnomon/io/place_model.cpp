@@ -10,7 +10,25 @@
 
 namespace gnomon {
 
+namespace {
+
+// Normals turn with the grid: by the difference of the meridian convergences in the model's middle.
+// `before`: that middle in the CRS `from`; `after`: in `to`.
+void turn_to_grid(Model& model, const std::string& from, const Vec3& before, const std::string& to,
+                  const Vec3& after) {
+  if (!model.looks || model.looks->normals.empty()) return;
+  const auto a = locate(from, before), b = locate(to, after);
+  if (a && b) turn_normals(model, b.value().true_north - a.value().true_north);
+}
+
+Vec3 middle_of(const std::optional<ModelBox>& box) {
+  return box ? (box->low + box->high) / 2.0 : Vec3(0);
+}
+
+}  // namespace
+
 std::optional<Error> move_to_crs(Model& model, const std::string& from, const std::string& to) {
+  const Vec3 before = middle_of(box_of(model));
   std::vector<Vec2> flat;
   flat.reserve(model.vertices.size());
   for (const Vec3& v : model.vertices) {
@@ -25,6 +43,7 @@ std::optional<Error> move_to_crs(Model& model, const std::string& from, const st
   }
   model.scale = Vec3(1);
   model.translate = Vec3(0);
+  turn_to_grid(model, from, before, to, middle_of(box_of(model)));
   return std::nullopt;
 }
 
@@ -72,6 +91,7 @@ std::optional<Error> place_at_site(Model& model, const Site& site, double north,
            model.report.path);
     }
   }
+  turn_normals(model, turn);
   const double c = std::cos(turn), s = std::sin(turn);
   for (Vec3& v : model.vertices) {
     const Vec3 m = v * model.scale + model.translate;

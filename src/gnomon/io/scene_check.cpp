@@ -135,6 +135,19 @@ std::string advice(const SceneFile& f, const Vec3& size) {
   return known.unit ? "export it in metres" : fmt::format("--unit {}=mm?", file_name(f));
 }
 
+// A time for all files is meant for those that have animations, if any does.
+void warn_of_unused_times(const std::vector<SceneFile>& files, const LoadOptions& options,
+                          Warnings& warnings) {
+  constexpr const char* kUnused = "--time and --animation were not used: there are no animations.";
+  bool any = false;
+  for (const SceneFile& f : files) {
+    const bool has = f.model->animations > 0;
+    any = any || has;
+    if (f.time_of_its_own && !has) warn(warnings, kUnused, file_name(f));
+  }
+  if (!any && (options.time || !options.animation.empty())) warn(warnings, kUnused, "");
+}
+
 }  // namespace
 
 std::optional<Error> check_sizes(const std::vector<SceneFile>& files, Warnings& warnings) {
@@ -196,6 +209,7 @@ void warn_of_unused_options(const std::vector<SceneFile>& files, const LoadOptio
     if (f.axes_of_its_own && is_georeferenced(f.format)) warn(warnings, axes, file_name(f));
   }
   if (all) warn(warnings, axes, "");
+  warn_of_unused_times(files, options, warnings);
   const FootprintOptions& o = options.footprints;
   const bool footprints = !o.layer.empty() || !o.height.empty() || !o.floors.empty() ||
                           !o.base.empty() || o.floor_height != FootprintOptions{}.floor_height;

@@ -47,6 +47,9 @@ std::optional<Error> check_told(const FileOptions& told) {
   if (told.north && !std::isfinite(*told.north)) {
     return Error{"--north must be a finite number of degrees."};
   }
+  if (told.time && !(*told.time >= 0 && std::isfinite(*told.time))) {
+    return Error{fmt::format("--time {} must be a number of seconds from 0 on.", *told.time)};
+  }
   return std::nullopt;
 }
 
@@ -70,6 +73,8 @@ void tell(SceneFile& file, const FileOptions& more) {
   if (more.north) told.north = more.north, file.north_of_its_own = true;
   if (more.site) told.site = more.site, file.site_of_its_own = true;
   if (!more.crs.empty()) told.crs = more.crs, file.crs_of_its_own = true;
+  if (more.time) told.time = more.time, file.time_of_its_own = true;
+  if (!more.animation.empty()) told.animation = more.animation, file.time_of_its_own = true;
 }
 
 // For people: the up axis and the unit, and who says so.
@@ -99,7 +104,8 @@ std::string mesh_axes(const std::filesystem::path& path, const FileOptions& told
 
 Result<std::vector<SceneFile>> scene_files(const std::vector<std::filesystem::path>& paths,
                                            const LoadOptions& options) {
-  FileOptions common{"", options.up, options.unit, options.north, options.crs, options.site};
+  FileOptions common{"",          options.up,   options.unit, options.north,
+                     options.crs, options.site, options.time, options.animation};
   if (auto error = check_told(common)) return *error;
   for (const FileOptions& more : options.for_files) {
     if (auto error = check_told(more)) return *error;
@@ -164,6 +170,7 @@ Result<Model> read_model(const SceneFile& file, const LoadOptions& options,
   const FileOptions& told = file.told;
   const std::string name = file.path.string();
   const double unit = *metres_per(told.unit);
+  const ReadOptions more{options.appearance, told.time, told.animation};
   switch (file.format) {
     case FileFormat::raster: {
       RasterOptions raster;
@@ -174,7 +181,7 @@ Result<Model> read_model(const SceneFile& file, const LoadOptions& options,
     case FileFormat::footprints:
       return read_footprints(file.path, options.footprints, target_crs, told.crs, ground);
     case FileFormat::assimp: {
-      auto model = read_assimp(file.path, told.up, told.unit.empty() ? 0.0 : unit);
+      auto model = read_assimp(file.path, told.up, told.unit.empty() ? 0.0 : unit, more);
       if (model) model.value().report.axes = mesh_axes(file.path, told);
       return model;
     }
@@ -183,7 +190,7 @@ Result<Model> read_model(const SceneFile& file, const LoadOptions& options,
       if (!text) return text.error();
       const auto place = read_ifc_place(text.value(), name);
       if (!place) return place.error();
-      auto model = read_assimp(file.path, told.up, told.unit.empty() ? 0.0 : unit);
+      auto model = read_assimp(file.path, told.up, told.unit.empty() ? 0.0 : unit, more);
       if (model) {
         place_ifc(model.value(), place.value());
         model.value().report.axes = mesh_axes(file.path, told);
@@ -193,14 +200,14 @@ Result<Model> read_model(const SceneFile& file, const LoadOptions& options,
     case FileFormat::obj: {
       const auto text = read_text(file.path);
       if (!text) return text.error();
-      auto model = read_obj(text.value(), name, told.up != 0 ? told.up : 'y', unit);
+      auto model = read_obj(text.value(), name, told.up != 0 ? told.up : 'y', unit, more);
       if (model) model.value().report.axes = axes_of(told, 'y', "m");
       return model;
     }
     case FileFormat::city_json: {
       const auto text = read_text(file.path);
       if (!text) return text.error();
-      return read_cityjson(text.value(), name, options.lod);
+      return read_cityjson(text.value(), name, options.lod, more);
     }
   }
   return Error{name + ": the format is not known."};

@@ -22,6 +22,7 @@ struct SceneFile {
   bool north_of_its_own = false;
   bool crs_of_its_own = false;
   bool axes_of_its_own = false;  // told.up, told.unit
+  bool time_of_its_own = false;  // told.time, told.animation
   bool above_ground = false;     // a raster of heights above the ground
   std::optional<Model> model;
 };

@@ -10,6 +10,7 @@
 #include <gnomon/core/place.h>
 #include <gnomon/core/warnings.h>
 #include <gnomon/mesh/tri_mesh.h>
+#include <gnomon/scene/appearance.h>
 
 namespace gnomon {
 
@@ -42,6 +43,7 @@ struct Scene {
   TriMesh mesh;                           // welded; no triangle of zero area
   std::vector<std::uint32_t> surface_of;  // per triangle: index into surfaces
   std::vector<Surface> surfaces;
+  Appearance appearance;  // empty where looks were not asked for
   Frame frame;
   Warnings warnings;
 };
