@@ -115,9 +115,13 @@ int main(int argc, char** argv) {
   gnomon::app::add_sun(app);
 #ifdef GNOMON_HAVE_GL
   gnomon::app::add_render(app);
+  gnomon::app::add_methods(app);
 #endif
 #ifdef GNOMON_HAVE_TRACE
   gnomon::app::add_verify(app);
+#ifdef GNOMON_HAVE_GL
+  gnomon::app::add_verify_gl(app);
+#endif
 #endif
   gnomon::app::stop_on_signals();
   std::signal(SIGXFSZ, SIG_IGN);  // a file size limit is then an error of the write, with a message

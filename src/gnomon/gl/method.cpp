@@ -108,6 +108,8 @@ Result<Method> decide(Method m, const Situation& s, const Capabilities& c) {
   if (m.mask == MaskIn::alpha && !s.target_alpha) {
     return refuse("The framebuffer has no alpha channel: take --method stencil or screen.");
   }
+  if (m.samples > 1 && c.max_samples < 2)
+    return refuse("There is no multisampling here: take --samples 1.");
   if (m.samples > 1 && m.samples > c.max_samples) {
     return refuse("There are at most " + std::to_string(c.max_samples) +
                   " samples a pixel here: take --samples " + std::to_string(c.max_samples) +

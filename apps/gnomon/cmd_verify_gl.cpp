@@ -1,0 +1,262 @@
+// gnomon verify-gl: masks of the renderer, by every method that goes together, against each other
+// and against the exact mask.
+#include <array>
+#include <chrono>
+#include <map>
+#include <memory>
+#include <optional>
+
+#include <fmt/format.h>
+#include <gnomon/gl/context.h>
+#include <gnomon/gl/mask_bounds.h>
+#include <gnomon/gl/method_pairs.h>
+#include <gnomon/gl/renderer.h>
+#include <gnomon/shadow/compare_masks.h>
+#include <gnomon/trace/verification_cases.h>
+
+#include "commands.h"
+#include "model_options.h"
+#include "verify_lights.h"
+
+namespace gnomon::app {
+namespace {
+
+struct Options {
+  Common common;
+  ModelOptions model;
+  int suns = 4, points = 3, size = 256;
+  std::vector<std::string> lights;
+  std::vector<std::string> views = {"plan", "camera", "shadow"};
+  std::string api = "gl";
+  std::vector<std::string> lacking;
+  bool all = false;
+  int polygons = 5000;
+};
+
+// Sums over all pictures of the methods that share a bound.
+struct Row {
+  gl::MaskBound bound;
+  int pictures = 0, broken = 0;
+  MaskDifference difference;
+  double most = 0;  // share of a picture that differs
+  std::uint64_t other_than_stencil = 0;
+};
+
+struct Totals {
+  std::map<std::string, Row> rows;
+  std::map<std::string, int> refused;  // by reason
+  int combinations = 0;
+  std::vector<std::string> broken;  // descriptions
+};
+
+struct Stage {
+  const Options& o;
+  const Scene& scene;
+  gl::Renderer& renderer;
+};
+
+// Both far planes: at infinity where the view can have it there, and clamped.
+struct Cameras {
+  std::optional<gl::Camera> infinite;
+  gl::Camera clamped;
+  const gl::Camera& of(const gl::Method& m) const {
+    return m.far_plane == gl::FarPlane::clamp || !infinite ? clamped : *infinite;
+  }
+};
+
+// One picture's answer, into its row.
+void note(Totals& totals, const std::string& where, const gl::Method& m, const MaskDifference& d,
+          std::uint64_t other) {
+  const gl::MaskBound bound = gl::bound_of(m);
+  Row& row = totals.rows[std::string(bound.of)];
+  row.bound = bound;
+  ++row.pictures;
+  row.difference += d;
+  row.other_than_stencil += other;
+  const double share = double(d.differ) / double(d.samples);
+  row.most = std::max(row.most, share);
+  const bool broken = share > bound.share || (d.unexplained > 0 && !bound.unexplained) ||
+                      (other > 0 && bound.same_as_stencil);
+  if (!broken) return;
+  ++row.broken;
+  std::string text = fmt::format(
+      "{}: {}: {} of {} differ, {} at an edge, {} in depth, {} unexplained; {} other "
+      "than the stencil",
+      where, gl::describe(m), d.differ, d.samples, d.at_edge, d.in_depth, d.unexplained, other);
+  for (const std::size_t k : d.first_unexplained) text += fmt::format(" {}", k);
+  totals.broken.push_back(text);
+}
+
+void verify_light(const Stage& stage, const std::string& where, const Cameras& cameras,
+                  const ExactAnswers& exact, Totals& totals) {
+  gl::Situation known;
+  const View& view = exact.view->samples.view;
+  known.parallel_view = is_parallel(view);
+  known.directional_light = exact.light.w == 0;
+  known.infinite_view = cameras.infinite.has_value();
+  // One mask of the stencil for each camera, which the others must equal.
+  std::map<const gl::Camera*, std::pair<ShadowMask, MaskDifference>> stencil;
+  gl::MethodPairs pairs(known, stage.renderer.capabilities(), stage.o.all);
+  const auto compare = [&](const gl::Method& m, const ShadowMask& mask) {
+    const gl::MaskBound b = gl::bound_of(m);
+    return compare_masks(exact, mask, {cameras.of(m).clip}, {b.edge, b.steps, b.pixels});
+  };
+  while (const std::optional<gl::Method> next = pairs.next()) {
+    const gl::Method& m = *next;
+    if (m.volumes == gl::VolumesOf::polygon && m.mask != gl::MaskIn::stencil &&
+        int(stage.scene.mesh.triangles.size()) > stage.o.polygons) {
+      pairs.skipped();
+      continue;
+    }
+    const gl::Camera& camera = cameras.of(m);
+    const auto begin = std::chrono::steady_clock::now();
+    const Result<ShadowMask> drawn = stage.renderer.mask(camera, exact.light, m);
+    if (stage.o.common.verbose > 1) {
+      fmt::print(stderr, "  {:6.0f} ms {}{}\n",
+                 std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
+                     .count(),
+                 gl::describe(m), drawn ? "" : ": " + drawn.error().message);
+    }
+    if (!drawn) {
+      if (!pairs.refused(drawn.error().message)) ++totals.refused[drawn.error().message];
+      continue;
+    }
+    pairs.drawn();
+    ++totals.combinations;
+    if (!stencil.contains(&camera)) {
+      gl::Method base;
+      base.far_plane = m.far_plane;
+      const ShadowMask mask = take(stage.renderer.mask(camera, exact.light, base));
+      const MaskDifference d = compare(base, mask);
+      note(totals, where, base, d, 0);
+      stencil[&camera] = {mask, d};
+    }
+    const auto& [mask, difference] = stencil[&camera];
+    const std::uint64_t other = differing_pixels(exact, drawn.value(), mask);
+    note(totals, where, m, other == 0 ? difference : compare(m, drawn.value()), other);
+  }
+}
+
+std::vector<NamedView> views_of(const Options& o, const Oracle& oracle,
+                                const std::vector<NamedLight>& lights) {
+  std::vector<NamedView> views;
+  for (const std::string& name : o.views) {
+    if (name == "plan") views.push_back(whole_plan(*oracle.scene, o.size));
+    if (name == "camera") views.push_back(aerial_camera(*oracle.scene, o.size));
+    if (name != "shadow") continue;
+    for (const NamedLight& light : lights) {
+      const std::optional<NamedView> view = shaded_camera(oracle, light.light, o.size);
+      if (!view) continue;
+      views.push_back(*view);
+      break;
+    }
+  }
+  return views;
+}
+
+void print_table(const std::string& model, std::size_t triangles, const Totals& totals) {
+  fmt::print(
+      "| model | triangles | methods | pictures | samples | differ | most in a picture | at an "
+      "edge "
+      "| in depth | unexplained | other than the stencil | edge-on | of these differ | bounds "
+      "broken "
+      "|\n|---|--:|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n");
+  for (const auto& [name, row] : totals.rows) {
+    const MaskDifference& d = row.difference;
+    fmt::print("| {} | {} | {} | {} | {} | {} | {:.3f} % | {} | {} | {} | {} | {} | {} | {} |\n",
+               model, triangles, name, row.pictures, d.samples, d.differ, 100 * row.most, d.at_edge,
+               d.in_depth, d.unexplained, row.other_than_stencil, d.edge_on, d.edge_on_differ,
+               row.broken);
+  }
+}
+
+void run(const Options& o) {
+  gl::HeadlessContext context =
+      take(gl::HeadlessContext::create(o.api == "gles" ? gl::Api::opengl_es : gl::Api::opengl));
+  gl::Capabilities capabilities = take(gl::find_capabilities());
+  for (const std::string& name : o.lacking) capabilities = take(gl::without(capabilities, name));
+  const LoadedScene loaded = read_models(o.model, o.common.quiet);
+  const Scene& scene = loaded.scene;
+  if (!o.common.quiet) print_warnings(scene.warnings);
+  const Oracle oracle = build_oracle(scene);
+  const Casters casters = prepare_casters(scene);
+  std::vector<NamedLight> lights;
+  if (o.lights.empty()) {
+    lights = choose_suns(scene, o.suns);
+    for (const NamedLight& point : choose_points(oracle, o.points)) lights.push_back(point);
+  }
+  for (const std::string& text : o.lights) lights.push_back(parse_light(text));
+  if (lights.empty()) throw Failure("no lights: give --suns, --points or --light");
+
+  gl::Renderer renderer = take(gl::Renderer::create(capabilities));
+  renderer.add_scene(scene);
+  const Stage stage{o, scene, renderer};
+  Totals totals;
+  for (const NamedView& view : views_of(o, oracle, lights)) {
+    const ExactView exact = exact_view(scene, casters, view.view, o.common.threads);
+    Cameras cameras;
+    cameras.clamped = gl::camera_of(view.view, gl::depth_range(scene, view.view, false));
+    if (!is_parallel(view.view))
+      cameras.infinite = gl::camera_of(view.view, gl::depth_range(scene, view.view, true));
+    for (const NamedLight& light : lights) {
+      if (o.common.verbose > 0) fmt::print(stderr, "{}, {}\n", view.name, light.name);
+      verify_light(stage, view.name + ", " + light.name, cameras,
+                   exact_answers(exact, light.light, o.common.threads), totals);
+    }
+  }
+  const std::string model = title_of(o.model);
+  if (!o.common.quiet) {
+    print_table(model, scene.mesh.triangles.size(), totals);
+    for (const auto& [reason, n] : totals.refused)
+      fmt::print("\nRefused {} times: {}\n", n, reason);
+  }
+  constexpr std::size_t kDescribed = 20;
+  for (std::size_t k = 0; k < std::min(kDescribed, totals.broken.size()); ++k)
+    fmt::print(stderr, "gnomon: {}\n", totals.broken[k]);
+  if (!totals.broken.empty()) {
+    throw Failure(fmt::format("{} of {} masks of {} break their bounds", totals.broken.size(),
+                              totals.combinations, model));
+  }
+}
+
+}  // namespace
+
+void add_verify_gl(CLI::App& app) {
+  const auto options = std::make_shared<Options>();
+  Options& o = *options;
+  CLI::App* command = app.add_subcommand(
+      "verify-gl", "Compare OpenGL's masks, by all methods, with each other and the exact mask");
+  add_model_options(*command, o.model);
+  command->add_option("--suns", o.suns, "Number of suns, chosen automatically")
+      ->check(CLI::Range(0, 1000))
+      ->capture_default_str();
+  command->add_option("--points", o.points, "Number of point lights, chosen automatically")
+      ->check(CLI::Range(0, 1000))
+      ->capture_default_str();
+  command->add_option("--light", o.lights,
+                      "Instead of these: X,Y,Z[,sun|point], towards a sun or the place of a lamp, "
+                      "in scene coordinates");
+  command->add_option("--size", o.size, "Samples per side of each view")
+      ->check(CLI::Range(1, 4096))
+      ->capture_default_str();
+  command
+      ->add_option("--views", o.views,
+                   "Any of plan, camera (outside), shadow (a camera inside a shadow)")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"plan", "camera", "shadow"}));
+  command->add_flag("--all", o.all,
+                    "Every combination of choices that is supported (default: so many that every "
+                    "two choices come together in one)");
+  command
+      ->add_option("--polygons", o.polygons,
+                   "Models of more triangles are not drawn polygon by polygon in alpha and screen")
+      ->capture_default_str();
+  command->add_option("--api", o.api, "gl (OpenGL 3.3) or gles (OpenGL ES 3.0)")
+      ->check(CLI::IsMember({"gl", "gles"}))
+      ->capture_default_str();
+  command->add_option("--without", o.lacking, "Do as if OpenGL lacked it (see gnomon render)");
+  add_common(*command, o.common);
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace gnomon::app

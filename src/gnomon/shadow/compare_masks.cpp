@@ -1,0 +1,242 @@
+#include <gnomon/shadow/compare_masks.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include <gnomon/shadow/cast_shadows.h>
+#include <gnomon/silhouette/light_sides.h>
+
+namespace gnomon {
+namespace {
+
+// Looked at more closely: this many samples a side of a pixel.
+constexpr int kClose = 16;
+// A close look costs as much as a small picture: a mask that is altogether wrong gets no more.
+constexpr std::size_t kLooks = 64;
+
+View part_of(const View& v, double left, double top, int width, int height, int finer) {
+  View out = v;
+  out.origin += left * v.right + top * v.down;
+  out.right /= finer;
+  out.down /= finer;
+  out.width = width * finer;
+  out.height = height * finer;
+  return out;
+}
+
+std::uint8_t bit_of(std::uint8_t state) {
+  return state == ShadowMask::kLit ? 1 : state == ShadowMask::kShadow ? 2 : 4;
+}
+
+// States of the finer samples that lie at most `pixels` from the pixel's centre.
+std::uint8_t states_near(const ExactAnswers& a, int column, int row, int pixels) {
+  constexpr int k = ExactView::kFiner;
+  const View& v = a.view->finer.view;
+  const int x = (column + 1) * k + k / 2, y = (row + 1) * k + k / 2;
+  std::uint8_t bits = 0;
+  for (int j = std::max(0, y - pixels * k); j <= std::min(v.height - 1, y + pixels * k); ++j)
+    for (int i = std::max(0, x - pixels * k); i <= std::min(v.width - 1, x + pixels * k); ++i)
+      bits |= bit_of(a.finer[std::size_t(j) * v.width + i]);
+  return bits;
+}
+
+std::uint8_t states_close(const ExactAnswers& a, std::size_t pixel) {
+  const auto found = a.looked_at.find(pixel);
+  if (found != a.looked_at.end()) return found->second;
+  if (a.looked_at.size() >= kLooks) return 0;
+  const View& v = a.view->samples.view;
+  const int column = static_cast<int>(pixel) % v.width, row = static_cast<int>(pixel) / v.width;
+  const View close = part_of(v, column - 0.5, row - 0.5, 2, 2, kClose);
+  const Receivers samples = visible_surfaces(*a.view->scene, close);
+  std::uint8_t bits = 0;
+  for (const std::uint8_t s : cast_shadows(*a.view->casters, samples, a.light).state)
+    bits |= bit_of(s);
+  a.looked_at[pixel] = bits;
+  return bits;
+}
+
+// The plane through three homogeneous points: plane . x = |a; b; c; x|.
+Vec4 plane_through(const Vec4& a, const Vec4& b, const Vec4& c) {
+  const auto minor = [&](int i, int j, int k) {
+    return glm::determinant(
+        glm::dmat3(Vec3(a[i], b[i], c[i]), Vec3(a[j], b[j], c[j]), Vec3(a[k], b[k], c[k])));
+  };
+  return {-minor(1, 2, 3), minor(0, 2, 3), -minor(0, 1, 3), minor(0, 1, 2)};
+}
+
+struct Depths {
+  const View& view;
+  Vec4 z, w;     // rows of the matrix to clip space
+  double steps;  // per unit of z / w
+
+  Depths(const View& v, const DepthBuffer& buffer)
+      : view(v),
+        z(glm::transpose(buffer.clip)[2]),
+        w(glm::transpose(buffer.clip)[3]),
+        steps(buffer.steps / 2) {}
+
+  // Where the ray of the pixel point q meets the plane, in steps; NaN where it does not.
+  double at(const Vec4& plane, const Vec4& q) const {
+    const Vec4 x = view.eye * glm::dot(plane, q) - q * glm::dot(plane, view.eye);
+    return glm::dot(z, x) / glm::dot(w, x) * steps;
+  }
+  // How much deeper a pixel to the side and one down, together.
+  double slope(const Vec4& plane, const Vec4& q) const {
+    const double here = at(plane, q);
+    return std::fabs(at(plane, q + view.right) - here) + std::fabs(at(plane, q + view.down) - here);
+  }
+};
+
+// The highest and lowest count that rounding of depths can make of n(p).
+struct Reach {
+  std::int32_t least, most;
+};
+
+Reach reach_of(const ExactAnswers& a, std::size_t pixel, const Depths& depths,
+               const Rounding& rounding) {
+  const Scene& scene = *a.view->scene;
+  const View& v = a.view->samples.view;
+  const Vec4 q =
+      pixel_point(v, static_cast<int>(pixel) % v.width, static_cast<int>(pixel) / v.width);
+  const auto vertex = [&](std::uint32_t k) { return point(scene.mesh.positions[k]); };
+  const Triangle& r = scene.mesh.triangles[a.view->samples.triangle[pixel]];
+  const Vec4 surface = plane_through(vertex(r[0]), vertex(r[1]), vertex(r[2]));
+  const double here = depths.at(surface, q);
+  const double surface_slope = depths.slope(surface, q);
+  const Vec4 behind = -a.light;
+  Reach reach{a.counts[pixel], a.counts[pixel]};
+  for (const SilhouetteEdge& e : a.silhouette) {
+    const Vec4 A = vertex(e.a), B = vertex(e.b);
+    const Vec4 plane = plane_through(A, B, behind);
+    const double distance = depths.at(plane, q) - here;
+    if (!(std::fabs(distance) <=
+          rounding.steps + rounding.pixels * (surface_slope + depths.slope(plane, q)))) {
+      continue;
+    }
+    // The line from eye to pixel point crosses the triangle (A, B, -L).
+    const double ab = glm::dot(plane_through(v.eye, q, A), B);
+    const double bl = glm::dot(plane_through(v.eye, q, B), behind);
+    const double la = glm::dot(plane_through(v.eye, q, behind), A);
+    if (!((ab >= 0 && bl >= 0 && la >= 0) || (ab <= 0 && bl <= 0 && la <= 0))) continue;
+    const std::int32_t change = glm::dot(plane, v.eye) > 0 ? -e.multiplicity : e.multiplicity;
+    // In front of the sample it has been counted and may be missed; behind it the other way round.
+    const std::int32_t flip = distance < 0 ? -change : change;
+    (flip < 0 ? reach.least : reach.most) += flip;
+  }
+  return reach;
+}
+
+std::uint8_t is_edge_on(const TriMesh& mesh, std::uint32_t triangle, const Light& light) {
+  const Triangle& t = mesh.triangles[triangle];
+  ExactStats stats;
+  light_side(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]], light, stats);
+  return stats.ties > 0 ? 1 : 0;
+}
+
+}  // namespace
+
+ExactView exact_view(const Scene& scene, const Casters& casters, const View& view, int threads) {
+  ExactView out;
+  out.scene = &scene;
+  out.casters = &casters;
+  out.samples = visible_surfaces(scene, view, threads);
+  out.finer = visible_surfaces(
+      scene, part_of(view, -1, -1, view.width + 2, view.height + 2, ExactView::kFiner), threads);
+  return out;
+}
+
+ExactAnswers exact_answers(const ExactView& view, const Light& light, int threads) {
+  ExactAnswers out;
+  out.view = &view;
+  out.light = snapped(light);
+  const int width = view.samples.view.width;
+  out.counts.resize(view.samples.triangle.size());
+  const BandSink sink = [&](const CountBand& band) {
+    for (int row = 0; row < band.rows; ++row) {
+      const std::int32_t* from = band.counts + static_cast<std::ptrdiff_t>(row) * band.stride;
+      std::copy(from, from + band.width,
+                out.counts.begin() + static_cast<std::ptrdiff_t>(band.first_row + row) * width);
+    }
+  };
+  count_shadows(*view.casters, view.samples, std::span(&light, 1), sink, threads);
+  std::vector<std::uint8_t> tied(view.scene->mesh.triangles.size(), 2);  // 2: not known yet
+  for (const std::uint32_t t : view.samples.triangle) {
+    if (t != kNoTriangle && tied[t] == 2) tied[t] = is_edge_on(view.scene->mesh, t, out.light);
+    out.edge_on.push_back(t == kNoTriangle ? 0 : tied[t]);
+  }
+  out.mask = {width, view.samples.view.height, {}};
+  for (std::size_t k = 0; k < out.counts.size(); ++k) {
+    out.mask.state.push_back(view.samples.triangle[k] == kNoTriangle ? ShadowMask::kNoSample
+                             : out.counts[k] > 0                     ? ShadowMask::kShadow
+                                                                     : ShadowMask::kLit);
+  }
+  out.finer = cast_shadows(*view.casters, view.finer, light, {.threads = threads}).state;
+  out.silhouette = find_silhouette(view.casters->edges, light_sides(view.scene->mesh, out.light));
+  return out;
+}
+
+MaskDifference& MaskDifference::operator+=(const MaskDifference& o) {
+  samples += o.samples;
+  edge_on += o.edge_on;
+  edge_on_differ += o.edge_on_differ;
+  differ += o.differ;
+  at_edge += o.at_edge;
+  in_depth += o.in_depth;
+  unexplained += o.unexplained;
+  for (const std::size_t k : o.first_unexplained)
+    if (first_unexplained.size() < kShown) first_unexplained.push_back(k);
+  return *this;
+}
+
+MaskDifference compare_masks(const ExactAnswers& exact, const ShadowMask& drawn,
+                             const DepthBuffer& depth, const Rounding& rounding) {
+  MaskDifference d;
+  const View& v = exact.view->samples.view;
+  const Depths depths(v, depth);
+  for (std::size_t k = 0; k < exact.mask.state.size(); ++k) {
+    ++d.samples;
+    const std::uint8_t state = drawn.state[k];
+    d.edge_on += exact.edge_on[k];
+    if (state == exact.mask.state[k]) continue;
+    if (exact.edge_on[k] != 0) {
+      ++d.edge_on_differ;
+      continue;
+    }
+    ++d.differ;
+    const std::uint8_t bit = bit_of(state);
+    const int column = static_cast<int>(k) % v.width, row = static_cast<int>(k) / v.width;
+    if ((states_near(exact, column, row, rounding.edge) & bit) != 0) {
+      ++d.at_edge;
+      continue;
+    }
+    if (rounding.steps > 0 && state != ShadowMask::kNoSample &&
+        exact.mask.state[k] != ShadowMask::kNoSample) {
+      const Reach reach = reach_of(exact, k, depths, rounding);
+      if (state == ShadowMask::kShadow ? reach.most > 0 : reach.least <= 0) {
+        ++d.in_depth;
+        continue;
+      }
+    }
+    if (rounding.edge <= 1 && (states_close(exact, k) & bit) != 0) {
+      ++d.at_edge;
+      continue;
+    }
+    ++d.unexplained;
+    if (d.first_unexplained.size() < MaskDifference::kShown) d.first_unexplained.push_back(k);
+  }
+  return d;
+}
+
+std::uint64_t differing_pixels(const ExactAnswers& exact, const ShadowMask& a,
+                               const ShadowMask& b) {
+  std::uint64_t n = 0;
+  for (std::size_t k = 0; k < a.state.size(); ++k)
+    n += a.state[k] != b.state[k] && exact.edge_on[k] == 0 ? 1 : 0;
+  return n;
+}
+
+}  // namespace gnomon

@@ -1,0 +1,89 @@
+// A mask drawn by a renderer against the exact one: which samples differ, and whether rounding
+// explains it. A renderer rounds where edges lie on the screen (to parts of a pixel) and how deep
+// surfaces lie (to steps of its depth buffer); everything else is a fault.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <vector>
+
+#include <glm/mat4x4.hpp>
+
+#include <gnomon/raster/count_shadows.h>
+#include <gnomon/raster/visible_surfaces.h>
+#include <gnomon/silhouette/silhouette.h>
+#include <gnomon/view/shadow_mask.h>
+
+namespace gnomon {
+
+// The samples of a view, and of the same view with finer pixels; shared by all lights.
+struct ExactView {
+  // Samples a side of a pixel of the finer view, odd, so that one lies in the pixel's centre; its
+  // picture is one pixel wider on each side.
+  static constexpr int kFiner = 3;
+  const Scene* scene = nullptr;
+  const Casters* casters = nullptr;
+  Receivers samples, finer;
+};
+ExactView exact_view(const Scene& scene, const Casters& casters, const View& view, int threads = 0);
+
+// The exact answers under one light.
+struct ExactAnswers {
+  const ExactView* view = nullptr;
+  Light light{0, 0, 1, 0};
+  ShadowMask mask;                    // of view->samples
+  std::vector<std::int32_t> counts;   // n(p); 0 where there is no sample
+  std::vector<std::uint8_t> edge_on;  // 1: the light lies exactly in the receiver's plane
+  std::vector<std::uint8_t> finer;    // states of view->finer
+  Silhouette silhouette;              // of all casters
+  // Per pixel that was looked at more closely: which states occur within a pixel of its centre (bit
+  // 0 lit, 1 shadow, 2 no sample). Not for several threads.
+  mutable std::map<std::size_t, std::uint8_t> looked_at;
+};
+ExactAnswers exact_answers(const ExactView& view, const Light& light, int threads = 0);
+
+// How deep a renderer says that things are: `clip` takes homogeneous scene coordinates to clip
+// space (z from -w to w, x and y as the view's pixels); the depth buffer has `steps` values.
+struct DepthBuffer {
+  glm::dmat4 clip{1.0};
+  double steps = 16777216;  // 24 bits
+};
+
+// What rounding may do.
+struct Rounding {
+  int edge = 1;       // pixels: how far from a sample an answer that is exact there may lie
+  double steps = 0;   // of depth: between a sample and a side of the shadow volume
+  double pixels = 0;  // and how far either of the two may be moved on the screen, in pixels, which
+                      // makes it deeper or less deep by its slope
+};
+
+struct MaskDifference {
+  std::uint64_t samples = 0;
+  // The light lies exactly in the receiver's plane, and so do the sides of shadow volumes over its
+  // edges: only the tie rule says whether it is lit, no depth buffer can, and nothing of the light
+  // falls on it either way. Not counted below.
+  std::uint64_t edge_on = 0;
+  std::uint64_t edge_on_differ = 0;
+  std::uint64_t differ = 0;
+  // Of these: the answer is exact somewhere within Rounding::edge pixels.
+  std::uint64_t at_edge = 0;
+  // Of the others: sides so close to the sample that counting them on the other side of it gives
+  // the answer.
+  std::uint64_t in_depth = 0;
+  std::uint64_t unexplained = 0;
+  std::vector<std::size_t> first_unexplained;  // pixels, at most kShown
+  static constexpr std::size_t kShown = 5;
+
+  MaskDifference& operator+=(const MaskDifference& o);
+};
+
+// Precondition: `drawn` has the view's size.
+MaskDifference compare_masks(const ExactAnswers& exact, const ShadowMask& drawn,
+                             const DepthBuffer& depth, const Rounding& rounding);
+
+// Pixels whose states differ, but for those that are edge-on to the light. Precondition: the view's
+// size.
+std::uint64_t differing_pixels(const ExactAnswers& exact, const ShadowMask& a, const ShadowMask& b);
+
+}  // namespace gnomon
