@@ -66,6 +66,8 @@ std::string_view name_of(Shadows v) {
       return "ambient";
     case Shadows::attenuated:
       return "attenuated";
+    case Shadows::none:
+      return "none";
   }
   return "";
 }
@@ -219,7 +221,7 @@ Result<Method> decide(Method m, const Situation& s, const Capabilities& c) {
           "of the paper): take --shadows attenuated or lights, or --arithmetic doubling.");
     }
   }
-  if (m.shadows != Shadows::lights && s.lights > 1) {
+  if (m.shadows != Shadows::lights && m.shadows != Shadows::none && s.lights > 1) {
     return refuse("Shadows that are " + std::string(name_of(m.shadows)) +
                   " are for one light: take --shadows lights for several.");
   }

@@ -32,9 +32,10 @@ enum class Extrusion : std::uint8_t { cpu, shader, blend, blend_large };
 enum class Primitives : std::uint8_t { quads, strips, fans };
 
 // What a shadow is in the picture. lights: each light adds its part where it is not shadowed; the
-// others are the first paper's for one light: black; ambient: and an ambient term added;
-// attenuated: the lit scene at half its brightness.
-enum class Shadows : std::uint8_t { lights, black, ambient, attenuated };
+// next are the first paper's for one light: black; ambient: and an ambient term added;
+// attenuated: the lit scene at half its brightness. none: there are no shadows, as a measure of
+// what they cost; the first light is drawn with the ambient term in one pass.
+enum class Shadows : std::uint8_t { lights, black, ambient, attenuated, none };
 
 struct Method {
   MaskIn mask = MaskIn::stencil;
