@@ -29,13 +29,19 @@ enum class VolumesOf : std::uint8_t { automatic, caster, polygon };
 enum class Arithmetic : std::uint8_t { doubling, maximum };  // of alpha and screen masks
 enum class FarPlane : std::uint8_t { automatic, infinite, clamp };
 enum class Extrusion : std::uint8_t { cpu, shader, blend, blend_large };
+// How far volumes reach: to infinity, as the papers have them, or to a plane beyond everything that
+// can be seen, where light, casters and eye allow one; it saves filling what lies below the ground.
+enum class Reach : std::uint8_t { automatic, infinite, bounded };
 enum class Primitives : std::uint8_t { quads, strips, fans };
 
-// What a shadow is in the picture. lights: each light adds its part where it is not shadowed; the
-// next are the first paper's for one light: black; ambient: and an ambient term added;
-// attenuated: the lit scene at half its brightness. none: there are no shadows, as a measure of
-// what they cost; the first light is drawn with the ambient term in one pass.
-enum class Shadows : std::uint8_t { lights, black, ambient, attenuated, none };
+// What becomes of the mask. lights: each light adds its part where it is not shadowed (Everitt and
+// Kilgard, 3.3). restored: one light is drawn with everything else at once, and where it is
+// shadowed the picture without it is put back: the same, with less to blend. The next are the
+// first paper's for one light: black; ambient: and an ambient term added; attenuated: the lit scene
+// at half its brightness. none: there are no shadows, as a measure of what they cost; the first
+// light is drawn with the ambient term in one pass. automatic: restored for one light in the
+// stencil, else lights.
+enum class Shadows : std::uint8_t { automatic, lights, restored, black, ambient, attenuated, none };
 
 struct Method {
   MaskIn mask = MaskIn::stencil;
@@ -46,8 +52,9 @@ struct Method {
   Arithmetic arithmetic = Arithmetic::doubling;
   FarPlane far_plane = FarPlane::automatic;
   Extrusion extrusion = Extrusion::shader;
+  Reach reach = Reach::automatic;
   Primitives primitives = Primitives::quads;
-  Shadows shadows = Shadows::lights;
+  Shadows shadows = Shadows::automatic;
   double mask_scale = 1;  // size of the mask over that of the picture, 0 < scale <= 1
   int samples = 1;        // a pixel
   // Alpha and screen masks in floats of 16 or 32 bits, whose powers of two count without a clamp;
@@ -67,6 +74,7 @@ struct Situation {
   bool target_stencil = true;  // the framebuffer can have a stencil attachment
   bool target_alpha = true;
   bool infinite_view = true;  // the view's far plane can be at infinity
+  bool can_bound = false;     // there is a plane for Reach::bounded
   int lights = 1;
 };
 
@@ -83,6 +91,7 @@ std::string_view name_of(VolumesOf);
 std::string_view name_of(Arithmetic);
 std::string_view name_of(FarPlane);
 std::string_view name_of(Extrusion);
+std::string_view name_of(Reach);
 std::string_view name_of(Primitives);
 std::string_view name_of(Shadows);
 
