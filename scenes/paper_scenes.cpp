@@ -275,9 +275,9 @@ std::vector<Lamp> lamps_of_the_room(int count, double phase) {
   };
   if (count == 1) return {{round(0), {0.8, 0.8, 0.8}}};
   if (count == 3) {
-    return {{round(0), {0.7, 0.15, 0.15}},
-            {round(1.0 / 3), {0.15, 0.7, 0.15}},
-            {round(2.0 / 3), {0.15, 0.15, 0.7}}};
+    return {{round(0), {0.5, 0.1, 0.1}},
+            {round(1.0 / 3), {0.1, 0.5, 0.1}},
+            {round(2.0 / 3), {0.1, 0.1, 0.5}}};
   }
   std::vector<Lamp> out;
   for (const Vec3& p : generated_sphere(0, 0.25).mesh.positions)  // an icosahedron's 12 corners
