@@ -1,6 +1,7 @@
 // The shadow mask of one light, in the stencil, the alpha channel or the screen.
 // Based on: Everitt and Kilgard 2002, section 3.3; Roettger, Irion and Ertl 2002, sections 4.2-4.4.
 #include <array>
+#include <utility>
 
 #include <glm/matrix.hpp>
 
@@ -285,6 +286,7 @@ void count_group(const Frame& frame, const LightPlan& plan, const std::vector<Ba
 }
 
 void clear_stencil(const Frame& frame, int value) {
+  if (std::exchange(frame.stencil, std::nullopt) == value) return;
   Pass p;
   p.depth_test = false;
   apply(p, frame);

@@ -34,7 +34,8 @@ void clear(const Frame& frame, const Target& target, const Vec3& background) {
   glClearColor(static_cast<float>(background.x), static_cast<float>(background.y),
                static_cast<float>(background.z), 0.0f);
   glClearDepthf(1.0f);
-  glClearStencil(0);
+  glClearStencil(kWrapMiddle);  // where the first light's count most often begins
+  if (target.format.stencil) frame.stencil = kWrapMiddle;
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT |
           (target.format.stencil ? GL_STENCIL_BUFFER_BIT : 0));
 }

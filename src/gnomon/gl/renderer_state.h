@@ -50,6 +50,7 @@ struct Frame {
   FrameStats* stats = nullptr;
 
   std::optional<Rect> scissor{};  // outside it nothing is seen
+  mutable std::optional<int> stencil{};  // what the whole stencil is known to hold
 
   glm::mat4 clip_of(const InstanceSlot& instance) const {
     return glm::mat4(camera->clip * instance.to_scene);
