@@ -73,6 +73,8 @@ std::string_view name_of(Shadows v) {
       return "ambient";
     case Shadows::attenuated:
       return "attenuated";
+    case Shadows::none:
+      return "none";
   }
   return "";
 }
@@ -255,7 +257,7 @@ Result<Method> decide(Method m, const Situation& s, const Capabilities& c) {
         "The picture without a light is put back where a full-size stencil says: take --shadows "
         "lights with other masks.");
   }
-  if (m.shadows != Shadows::lights && s.lights > 1) {
+  if (m.shadows != Shadows::lights && m.shadows != Shadows::none && s.lights > 1) {
     return refuse("Shadows that are " + std::string(name_of(m.shadows)) +
                   " are for one light: take --shadows lights for several.");
   }

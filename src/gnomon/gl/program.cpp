@@ -14,7 +14,8 @@ Result<GLuint> compile_stage(std::string_view name, GLenum stage, std::string_vi
                              const std::string& defines) {
   const std::string version =
       epoxy_is_desktop_gl() ? "#version 330 core\n"
-                            : "#version 300 es\nprecision highp float;\nprecision highp int;\n";
+                            : "#version 300 es\nprecision highp float;\nprecision highp int;\n"
+                              "precision highp sampler2D;\n";
   const std::string source = version + defines + std::string(text);
   const GLuint shader = glCreateShader(stage);
   const char* data = source.c_str();

@@ -266,6 +266,24 @@ Result<bool> draw_paper(const Frame& frame, const Target& picture, const LightSo
   return true;
 }
 
+// Every light everywhere.
+void draw_unshadowed(const Frame& frame, std::span<const LightSource> lights,
+                     const FrameOptions& options) {
+  Lighting lighting;
+  lighting.light = &lights.front();
+  lighting.ambient = options.ambient;
+  lighting.emission = true;
+  draw_lit(frame, first_pass(true), lighting);
+  Pass add = colour_pass(GL_EQUAL);
+  add.blend = true;
+  add.source = add.destination = GL_ONE;
+  for (const LightSource& light : lights.subspan(1)) {
+    Lighting one;
+    one.light = &light;
+    draw_lit(frame, add, one);
+  }
+}
+
 }  // namespace
 
 Renderer::Renderer(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -352,8 +370,9 @@ Result<FrameStats> Renderer::draw(const Camera& camera, std::span<const LightSou
   Frame frame{state_.get(), &camera, &counted};
   Method wanted = options.method;
   const TargetFacts facts{true, true, static_cast<int>(lights.size())};
+  counted.method = wanted;
   std::vector<LightPlan> plans;
-  for (std::size_t i = 0; i < lights.size(); ++i) {
+  for (std::size_t i = 0; i < lights.size() && wanted.shadows != Shadows::none; ++i) {
     Result<LightPlan> plan =
         plan_light(frame, lights[i].light, static_cast<std::uint32_t>(i), wanted, facts);
     if (!plan) return plan.error();
@@ -372,7 +391,9 @@ Result<FrameStats> Renderer::draw(const Camera& camera, std::span<const LightSou
   clear(frame, picture, options.background);
   frame.scissor = visible_rectangle(frame);
   Result<bool> drawn = true;
-  const Shadows shadows = plans.empty() ? Shadows::lights : plans.front().method.shadows;
+  const Shadows shadows = lights.empty()  ? Shadows::lights
+                          : plans.empty() ? Shadows::none
+                                          : plans.front().method.shadows;
   if (shadows == Shadows::restored) {
     Lighting all;
     all.light = &lights.front();
@@ -391,6 +412,8 @@ Result<FrameStats> Renderer::draw(const Camera& camera, std::span<const LightSou
     ambient.emission = true;
     draw_lit(frame, first_pass(true), ambient);
     drawn = add_lights(frame, picture, lights, plans);
+  } else if (shadows == Shadows::none) {
+    draw_unshadowed(frame, lights, options);
   } else {
     drawn = draw_paper(frame, picture, lights.front(), plans.front(), options);
   }

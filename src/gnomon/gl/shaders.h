@@ -230,7 +230,9 @@ void main() {
 }
 )";
 
-// Floats at the ends of their range have lost a count, or are about to.
+// Floats at the ends of their range have lost a count, or are about to. So have those that are no
+// power of two: a driver may round towards zero, so that too large a half float does not become
+// infinite but stays at 65504, and is halved from there.
 inline constexpr const char* kOverflowFragment = R"(
 in vec2 v_texture;
 uniform sampler2D u_image;
@@ -240,7 +242,8 @@ uniform float u_most;
 out vec4 o_colour;
 void main() {
   float value = dot(texture(u_image, v_texture), u_channel);
-  if (value >= u_least && value <= u_most) discard;
+  bool power_of_two = (floatBitsToUint(value) & 0x7fffffu) == 0u;
+  if (power_of_two && value >= u_least && value <= u_most) discard;
   o_colour = vec4(1.0);
 }
 )";
