@@ -138,19 +138,19 @@ Result<Method> decide(Method m, const Situation& s, const Capabilities& c) {
   }
 
   // Counting.
-  if (m.count == Count::z_pass && s.near_shaded) {
+  if (m.count == Count::z_pass && s.near_shaded && !m.unchecked) {
     return refuse(
         "z-pass counts from the near plane, and casters lie between the near plane and the light "
         "(near clip volume), so its counts would be wrong: take --count auto, zfail, near-cap or "
         "zp-plus.");
   }
-  if (s.light_along_view &&
+  if (s.light_along_view && !m.unchecked &&
       (m.count == Count::z_fail || m.count == Count::near_cap || m.count == Count::zp_plus)) {
     return refuse(
         "The parallel view looks exactly along the light: all ends of the volumes fall into one "
         "point at infinity. Take --count auto, which counts z-pass there, or turn the view.");
   }
-  if (s.light_along_view && s.near_shaded) {
+  if (s.light_along_view && s.near_shaded && !m.unchecked) {
     return refuse(
         "The parallel view looks exactly against the light, from behind the casters: no counting "
         "on the graphics card is right there. Turn the view.");

@@ -52,6 +52,9 @@ struct Method {
   // Alpha and screen masks in floats of 16 or 32 bits, whose powers of two count without a clamp;
   // 0: in 8 bits. Decided, not asked for: casters that a view ray can enter twice need it.
   int float_bits = 0;
+  // For demonstrations: counts z-pass, and along a parallel view's light, where decide() would
+  // refuse it since the mask is wrong there. What cannot be drawn at all is refused all the same.
+  bool unchecked = false;
   bool keep_double_blending = false;  // KEEP instead of INCR where a light is added (stencil): the
                                       // paper's 3.4; only where no two fragments share a depth
 };
