@@ -70,7 +70,9 @@ void run(const Options& o) {
   for (const std::string& name : o.lacking) capabilities = take(gl::without(capabilities, name));
   if (o.common.verbose > 0) fmt::print("{}\n", gl::describe(capabilities));
 
-  const LoadedScene loaded = read_models(o.models, o.common.quiet);
+  ModelOptions models = o.models;
+  models.load.appearance = true;
+  const LoadedScene loaded = read_models(models, o.common.quiet);
   const Scene& scene = loaded.scene;
   const ChosenLights lights = choose_lights(o.lights, scene);
   const View view = make_camera(scene, o.view, light_azimuth(scene, lights.first.light), 1);

@@ -110,6 +110,8 @@ void add_method_options(CLI::App& command, gl::Method& m) {
   add_choice(command, "--extrusion", m.extrusion,
              {Extrusion::cpu, Extrusion::shader, Extrusion::blend, Extrusion::blend_large},
              "Where volumes are extruded");
+  add_choice(command, "--reach", m.reach, {Reach::automatic, Reach::infinite, Reach::bounded},
+             "How far volumes reach");
   add_choice(command, "--primitives", m.primitives,
              {Primitives::quads, Primitives::strips, Primitives::fans}, "How sides are sent");
   add_choice(command, "--shadows", m.shadows,

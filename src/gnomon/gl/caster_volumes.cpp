@@ -21,7 +21,7 @@ SideForm form_of(Primitives p) {
 struct Builder {
   CasterVolumes& v;
   const GpuMesh& m;
-  bool directional;
+  bool one_point;
   SideForm form;
   LoopScratch scratch{};
   Silhouette silhouette{};
@@ -45,7 +45,7 @@ struct Builder {
     silhouette.clear();
     find_part_silhouette(silhouette, m.edges, edges, group_of, group, v.light_side,
                          v.plan[p].casting);
-    append_volume(v.lists, m.mesh, silhouette, triangles, v.light_side, directional,
+    append_volume(v.lists, m.mesh, silhouette, triangles, v.light_side, one_point,
                   v.plan[p].casting, form, p, scratch);
     note(false, layers);
   }
@@ -56,7 +56,7 @@ struct Builder {
     if (plan.by_polygon) {
       for (const std::uint32_t t : part.triangles) {
         if (!casts(plan.casting, v.light_side[t])) continue;
-        append_prism(v.lists, m.mesh, t, v.light_side[t], directional, p);
+        append_prism(v.lists, m.mesh, t, v.light_side[t], one_point, p);
         note(true, 1);
       }
       return;
@@ -91,23 +91,21 @@ struct Builder {
     for (std::uint32_t r = 0; r < v.regions.size(); ++r) {
       if ((v.region_z_fail[r] != 0) != z_fail) continue;
       const auto triangles = v.regions.triangles_of(r);
-      append_volume(v.lists, m.mesh, v.regions.silhouette_of(r), triangles, v.light_side,
-                    directional, Casting::all_triangles, form, m.parts.part_of[triangles[0]],
-                    scratch);
+      append_volume(v.lists, m.mesh, v.regions.silhouette_of(r), triangles, v.light_side, one_point,
+                    Casting::all_triangles, form, m.parts.part_of[triangles[0]], scratch);
       note(false, static_cast<std::uint32_t>(triangles.size()));
     }
   }
 };
 
-// The doubled vertices, extruded on the CPU by the same float operations as in the shader.
-std::vector<glm::vec4> extrude(const TriMesh& mesh, const Light& light) {
-  const glm::vec4 l(light);
+// The doubled vertices, extruded on the CPU as the shader does it.
+std::vector<glm::vec4> extrude(const TriMesh& mesh, const glm::mat4& project) {
   std::vector<glm::vec4> out;
   out.reserve(mesh.positions.size() * 2);
   for (const Vec3& position : mesh.positions) {
     const glm::vec3 p(position);
     out.emplace_back(p, 1.0f);
-    out.emplace_back(p.x * l.w - l.x, p.y * l.w - l.y, p.z * l.w - l.z, 0.0f);
+    out.push_back(project * glm::vec4(p, 1.0f));
   }
   return out;
 }
@@ -155,23 +153,27 @@ bool update_sides(CasterVolumes& v, const GpuMesh& m, std::uint64_t mesh_version
 }
 
 bool update_lists(CasterVolumes& v, const GpuMesh& m, const Method& method, const NearClip& near,
-                  std::uint32_t most_layers, bool sides_changed) {
+                  const glm::mat4& project, std::uint32_t most_layers, bool sides_changed) {
+  const bool one_point = v.light.w == 0 && project[0][0] == 0.0f;
   std::vector<std::uint8_t> region_z_fail(v.regions.size());
   for (std::uint32_t r = 0; r < v.regions.size(); ++r)
     region_z_fail[r] = may_any_shade_near(near, m.mesh, v.regions.triangles_of(r)) ? 1 : 0;
   if (!sides_changed && v.region_z_fail == region_z_fail && v.extrusion == method.extrusion &&
-      v.primitives == method.primitives && v.most_layers == most_layers) {
+      v.primitives == method.primitives && v.most_layers == most_layers &&
+      v.one_point == one_point && (method.extrusion != Extrusion::cpu || v.project == project)) {
     return false;
   }
   v.region_z_fail = std::move(region_z_fail);
   v.extrusion = method.extrusion;
   v.primitives = method.primitives;
   v.most_layers = most_layers;
+  v.one_point = one_point;
+  v.project = project;
 
   v.lists = {};
   v.polygon.clear();
   v.layers_of.clear();
-  Builder builder{v, m, v.light.w == 0, form_of(method.primitives)};
+  Builder builder{v, m, v.one_point, form_of(method.primitives)};
   for (const bool z_fail : {true, false}) {
     for (std::uint32_t p = 0; p < v.plan.size(); ++p) {
       if (!v.plan[p].by_region && v.plan[p].z_fail == z_fail) builder.append_part(p);
@@ -196,7 +198,7 @@ bool update_lists(CasterVolumes& v, const GpuMesh& m, const Method& method, cons
                static_cast<GLsizeiptr>(indices.size() * sizeof(std::uint32_t)), indices.data(),
                GL_STREAM_DRAW);
   if (method.extrusion == Extrusion::cpu) {
-    const std::vector<glm::vec4> vertices = extrude(m.mesh, v.light);
+    const std::vector<glm::vec4> vertices = extrude(m.mesh, project);
     glBindBuffer(GL_ARRAY_BUFFER, v.extruded.id());
     glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(glm::vec4)),
                  vertices.data(), GL_STREAM_DRAW);

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
 
 #include <gnomon/core/vec.h>
@@ -39,6 +40,8 @@ struct CasterVolumes {
   Extrusion extrusion = Extrusion::shader;
   Primitives primitives = Primitives::quads;
   std::uint32_t most_layers = 0;
+  glm::mat4 project{0.0f};
+  bool one_point = false;  // behind all vertices: a directional light's at infinity
   std::vector<std::uint8_t> region_z_fail;  // per region
 
   std::vector<std::int8_t> light_side;  // per triangle
@@ -62,9 +65,11 @@ bool update_sides(CasterVolumes& volumes, const GpuMesh& mesh, std::uint64_t mes
                   const Light& light, const std::vector<PartPlan>& plan);
 
 // Brings lists and buffers up to date. `near`: in the mesh's coordinates, for parts by region.
-// `most_layers`: volumes of more triangles than that are split; 0: none is. True if they were not.
+// `project`: a vertex (x, y, z, 1) to the point behind it. `most_layers`: volumes of more triangles
+// than that are split; 0: none is. True if they were not.
 bool update_lists(CasterVolumes& volumes, const GpuMesh& mesh, const Method& method,
-                  const NearClip& near, std::uint32_t most_layers, bool sides_changed);
+                  const NearClip& near, const glm::mat4& project, std::uint32_t most_layers,
+                  bool sides_changed);
 
 // The ranges of volumes first .. last - 1 in `indices`, list by list.
 std::array<IndexRange, kListKinds> ranges_of(const CasterVolumes& volumes, std::size_t first,

@@ -1,5 +1,9 @@
 #include <gnomon/gl/gpu_mesh.h>
 
+#include <algorithm>
+#include <limits>
+
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
@@ -10,6 +14,7 @@ namespace {
 
 struct Corner {
   glm::vec3 position, normal;
+  glm::vec2 texture;
 };
 
 void upload(const Buffer& buffer, GLenum target, const void* data, std::size_t bytes) {
@@ -28,22 +33,103 @@ void upload_vertices(GpuMesh& m) {
   }
   std::vector<Corner> corners;
   corners.reserve(static_cast<std::size_t>(m.surface_count));
-  for (std::size_t t = 0; t < m.mesh.triangles.size(); ++t) {
-    if (m.receives[t] == 0) continue;
+  for (const std::uint32_t t : m.drawn) {
     const Triangle& v = m.mesh.triangles[t];
     const Vec3 &a = m.mesh.positions[v[0]], &b = m.mesh.positions[v[1]],
                &c = m.mesh.positions[v[2]];
     const Vec3 n = glm::cross(b - a, c - a);
     const double length = glm::length(n);
-    const glm::vec3 normal = length > 0 ? glm::vec3(n / length) : glm::vec3(0, 0, 1);
-    for (const Vec3& p : {a, b, c}) corners.push_back({glm::vec3(p), normal});
+    const glm::vec3 facet = length > 0 ? glm::vec3(n / length) : glm::vec3(0, 0, 1);
+    for (int i = 0; i < 3; ++i) {
+      Corner corner{glm::vec3(m.mesh.positions[v[i]]), facet, glm::vec2(0.0f)};
+      if (!m.appearance.normals.empty() && m.appearance.normals[t][i] != glm::vec3(0.0f))
+        corner.normal = m.appearance.normals[t][i];
+      // Shading normals on the facet's own side: which of them is lit is the facet's to say.
+      if (glm::dot(corner.normal, facet) < 0) corner.normal = -corner.normal;
+      if (!m.appearance.uv.empty()) corner.texture = m.appearance.uv[t][i];
+      corners.push_back(corner);
+    }
   }
   glBindVertexArray(0);
   upload(m.doubled, GL_ARRAY_BUFFER, doubled.data(), doubled.size() * sizeof(glm::vec4));
   upload(m.corners, GL_ARRAY_BUFFER, corners.data(), corners.size() * sizeof(Corner));
 }
 
+GpuMaterial gpu_material(const Material& m) {
+  GpuMaterial g;
+  g.base_colour = m.base_colour;
+  g.emissive = m.emissive;
+  g.specular = m.specular;
+  g.shininess = m.specular == Vec3(0.0) ? 0.0f : static_cast<float>(m.shininess);
+  g.normal_scale = static_cast<float>(m.normal_scale);
+  if (m.base_texture >= 0) g.base_texture = static_cast<std::size_t>(m.base_texture);
+  if (m.normal_texture >= 0) g.normal_texture = static_cast<std::size_t>(m.normal_texture);
+  return g;
+}
+
+GLint wrap_of(TextureEdge edge) {
+  return edge == TextureEdge::repeat   ? GL_REPEAT
+         : edge == TextureEdge::mirror ? GL_MIRRORED_REPEAT
+                                       : GL_CLAMP_TO_EDGE;
+}
+
+Texture2D upload_texture(const Texture& t) {
+  Texture2D out = Texture2D::make();
+  glBindTexture(GL_TEXTURE_2D, out.id());
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, t.width, t.height, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+               t.rgba.data());
+  glGenerateMipmap(GL_TEXTURE_2D);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, wrap_of(t.edge_u));
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, wrap_of(t.edge_v));
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER,
+                  t.smooth ? GL_LINEAR_MIPMAP_LINEAR : GL_NEAREST_MIPMAP_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, t.smooth ? GL_LINEAR : GL_NEAREST);
+  return out;
+}
+
+// Receiving triangles by material, each material's in their own order.
+void sort_by_material(GpuMesh& m) {
+  m.drawn.clear();
+  for (std::uint32_t t = 0; t < m.mesh.triangles.size(); ++t) {
+    if (m.receives[t] != 0) m.drawn.push_back(t);
+  }
+  const std::vector<std::uint32_t>& of = m.appearance.material_of;
+  const auto material = [&](std::uint32_t t) { return of.empty() ? kNoMaterial : of[t]; };
+  std::stable_sort(m.drawn.begin(), m.drawn.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return material(a) < material(b); });
+  m.materials.clear();
+  for (std::size_t i = 0; i < m.drawn.size(); ++i) {
+    const std::uint32_t number = material(m.drawn[i]);
+    if (i == 0 || material(m.drawn[i - 1]) != number) {
+      m.materials.push_back(
+          {number == kNoMaterial ? GpuMaterial{} : gpu_material(m.appearance.materials[number]),
+           static_cast<GLint>(3 * i), 0});
+    }
+    m.materials.back().count += 3;
+  }
+}
+
+void find_boxes(GpuMesh& m) {
+  constexpr double kInf = std::numeric_limits<double>::infinity();
+  m.lo = m.caster_lo = Vec3(kInf);
+  m.hi = m.caster_hi = Vec3(-kInf);
+  for (std::size_t t = 0; t < m.mesh.triangles.size(); ++t) {
+    for (const std::uint32_t v : m.mesh.triangles[t]) {
+      const Vec3& p = m.mesh.positions[v];
+      if (m.receives[t] != 0) {
+        m.lo = glm::min(m.lo, p);
+        m.hi = glm::max(m.hi, p);
+      }
+      if (m.casts[t] != 0) {
+        m.caster_lo = glm::min(m.caster_lo, p);
+        m.caster_hi = glm::max(m.caster_hi, p);
+      }
+    }
+  }
+}
+
 void find_parts(GpuMesh& m) {
+  find_boxes(m);
   m.parts = split_into_parts(m.mesh, m.edges, m.casts);
   m.part_edges = edges_of_parts(m.edges, m.parts.part_of, m.parts.parts.size());
   m.part_seen.assign(m.parts.parts.size(), 1);
@@ -55,7 +141,7 @@ void find_parts(GpuMesh& m) {
 }  // namespace
 
 GpuMesh make_gpu_mesh(const TriMesh& mesh, std::vector<std::uint8_t> casts,
-                      std::vector<std::uint8_t> receives) {
+                      std::vector<std::uint8_t> receives, const Appearance* look) {
   GpuMesh m;
   m.mesh = mesh;
   for (Vec3& p : m.mesh.positions) p = rounded(p);
@@ -72,6 +158,13 @@ GpuMesh make_gpu_mesh(const TriMesh& mesh, std::vector<std::uint8_t> casts,
     if (m.casts[t] == 0) m.only_receive.push_back(t);
   }
   m.surface_count = static_cast<GLsizei>(surface.size());
+  if (look != nullptr) {
+    for (const Texture& texture : look->textures) m.textures.push_back(upload_texture(texture));
+    m.appearance = *look;
+    m.appearance.textures.clear();
+    m.smooth = !look->normals.empty();
+  }
+  sort_by_material(m);
 
   m.doubled = Buffer::make();
   m.corners = Buffer::make();
@@ -92,6 +185,9 @@ GpuMesh make_gpu_mesh(const TriMesh& mesh, std::vector<std::uint8_t> casts,
   glEnableVertexAttribArray(kNormal);
   glVertexAttribPointer(kNormal, 3, GL_FLOAT, GL_FALSE, sizeof(Corner),
                         reinterpret_cast<const void*>(sizeof(glm::vec3)));
+  glEnableVertexAttribArray(kTexture);
+  glVertexAttribPointer(kTexture, 2, GL_FLOAT, GL_FALSE, sizeof(Corner),
+                        reinterpret_cast<const void*>(2 * sizeof(glm::vec3)));
   glBindVertexArray(0);
   return m;
 }

@@ -11,8 +11,6 @@
 namespace gnomon::gl {
 namespace {
 
-constexpr float kLarge = 16777216.0f;  // "Accelerated Stencil Shadow Extrusion": LARGE
-
 struct InstanceVolumes {
   const InstanceSlot* instance;
   const GpuMesh* mesh;
@@ -42,22 +40,8 @@ void use_volumes(const Frame& frame, const LightPlan& plan, const InstanceVolume
   const auto form = static_cast<std::size_t>(plan.method.extrusion);
   const GLuint program = frame.state->programs.volume[form].id();
   glUseProgram(program);
-  const glm::vec4 light(v.plan->light);
   set(program, "u_clip", frame.clip_of(*v.instance));
-  set(program, "u_light", light);
-  if (plan.method.extrusion == Extrusion::blend ||
-      plan.method.extrusion == Extrusion::blend_large) {
-    // Points behind: x Lw - L, w = 0; finite: the same times LARGE, w = 1.
-    const float k = plan.method.extrusion == Extrusion::blend ? 1.0f : kLarge;
-    glm::mat4 project(0.0f);
-    for (int i = 0; i < 3; ++i) {
-      project[i][i] = light.w * k;
-      project[3][i] = -light[i] * k;
-    }
-    project[3][3] = plan.method.extrusion == Extrusion::blend ? 0.0f : 1.0f;
-    set(program, "u_keep", glm::mat4(1.0f));
-    set(program, "u_project", project);
-  }
+  set(program, "u_project", v.plan->project);
   set(program, "u_colour", glm::vec4(1));
   glBindVertexArray(v.volumes->array.id());
 }
@@ -138,7 +122,7 @@ struct Prepared {
 void update_all_lists(const Frame& frame, const LightPlan& plan, Prepared& prepared) {
   for (std::size_t i = 0; i < prepared.all.size(); ++i) {
     InstanceVolumes& v = prepared.all[i];
-    if (update_lists(*v.volumes, *v.mesh, plan.method, v.plan->near,
+    if (update_lists(*v.volumes, *v.mesh, plan.method, v.plan->near, v.plan->project,
                      prepared.grouped ? kGroupLayers : 0, prepared.changed[i])) {
       ++frame.stats->rebuilt;
     }
@@ -207,7 +191,7 @@ void draw_near_start(const Frame& frame, const LightPlan& plan, const Batch& b, 
   const Programs& programs = frame.state->programs;
   if (plan.method.count == Count::near_cap) {
     if (b.near_caps.count == 0) return;
-    apply(pass, frame.state->support);
+    apply(pass, frame);
     glUseProgram(programs.plain.id());
     set(programs.plain.id(), "u_colour", glm::vec4(brightness));
     glBindVertexArray(frame.state->near_cap_array.id());
@@ -226,7 +210,7 @@ void draw_near_start(const Frame& frame, const LightPlan& plan, const Batch& b, 
     side = -side;
   }
   pass.cull = GL_NONE;
-  apply(pass, frame.state->support);
+  apply(pass, frame);
   const GLuint program = programs.near_light.id();
   glUseProgram(program);
   set(program, "u_colour", glm::vec4(brightness));
@@ -284,7 +268,7 @@ void count_phase(const Frame& frame, const LightPlan& plan, const Method& m,
       bool applied = false;
       for (const Batch& b : batches) {
         if (b.z_fail != z_fail || !any(b.ranges, turned)) continue;
-        if (!applied) apply(stencil_pass(m, grouped, z_fail, turned, phase), frame.state->support);
+        if (!applied) apply(stencil_pass(m, grouped, z_fail, turned, phase), frame);
         applied = true;
         use_volumes(frame, plan, *b.of);
         draw_lists(frame, m, b.ranges, z_fail, b.of->plan->caps_in_front, turned);
@@ -303,7 +287,7 @@ void count_group(const Frame& frame, const LightPlan& plan, const std::vector<Ba
 void clear_stencil(const Frame& frame, int value) {
   Pass p;
   p.depth_test = false;
-  apply(p, frame.state->support);
+  apply(p, frame);
   glClearStencil(value);
   glClear(GL_STENCIL_BUFFER_BIT);
 }
@@ -417,7 +401,7 @@ void count_by_blending(const Frame& frame, const LightPlan& plan, const Prepared
           // z-pass: entering faces first. z-fail: leaving faces first.
           const bool draw_enter = first != z_fail;
           p.cull = draw_enter != turned ? GL_BACK : GL_FRONT;
-          apply(p, frame.state->support);
+          apply(p, frame);
           draw_lists(frame, m, b.ranges, z_fail, v.plan->caps_in_front, turned);
         }
       }
@@ -544,7 +528,7 @@ void count_unlit_receivers(const Frame& frame, const LightPlan& plan, bool group
         p.colour = mask_channels(m);
         brightness = blend.brightness;
       }
-      apply(p, frame.state->support);
+      apply(p, frame);
       const GLuint program = frame.state->programs.flat.id();
       glUseProgram(program);
       set(program, "u_clip", frame.clip_of(instance));
@@ -570,7 +554,7 @@ void clear_colours(const Frame& frame, const Method& m) {
   p.depth_test = false;
   const float start = m.arithmetic == Arithmetic::maximum ? 1.0f : 0.25f;
   p.colour = mask_channels(m);
-  apply(p, frame.state->support);
+  apply(p, frame);
   glClearColor(start, start, start, start);
   glClear(GL_COLOR_BUFFER_BIT);
 }
@@ -615,7 +599,7 @@ void draw_volume_faces(const Frame& frame, const LightPlan& plan, const Pass& pa
   const Prepared prepared = prepare(frame, plan);
   for (const std::vector<Batch>& batches : batches_of(prepared)) {
     for (const Batch& b : batches) {
-      apply(pass, frame.state->support);
+      apply(pass, frame);
       use_volumes(frame, plan, *b.of);
       set(frame.state->programs.volume[static_cast<std::size_t>(plan.method.extrusion)].id(),
           "u_colour", colour);

@@ -53,6 +53,9 @@ std::string_view name_of(Extrusion v) {
   }
   return "";
 }
+std::string_view name_of(Reach v) {
+  return v == Reach::automatic ? "auto" : v == Reach::infinite ? "infinite" : "bounded";
+}
 std::string_view name_of(Primitives v) {
   return v == Primitives::quads ? "quads" : v == Primitives::strips ? "strips" : "fans";
 }
@@ -84,6 +87,7 @@ std::string describe(const Method& m) {
   add("volumes of " + std::string(name_of(m.volumes)));
   add("far plane " + std::string(name_of(m.far_plane)));
   add("extruded by " + std::string(name_of(m.extrusion)));
+  add(std::string(name_of(m.reach)) + " reach");
   add(name_of(m.primitives));
   add(name_of(m.shadows));
   return text;
@@ -137,6 +141,24 @@ Result<Method> decide(Method m, const Situation& s, const Capabilities& c) {
         "the precision of a parallel view: take --extrusion shader.");
   }
 
+  // Reach.
+  if (m.extrusion == Extrusion::blend_large && m.reach == Reach::bounded) {
+    return refuse(
+        "Finite extrusion by a large factor is a reach of its own: take --extrusion shader with "
+        "--reach bounded.");
+  }
+  if (m.reach == Reach::automatic) {
+    const bool infinite =
+        !s.can_bound || m.extrusion == Extrusion::blend_large || m.primitives == Primitives::fans;
+    m.reach = infinite ? Reach::infinite : Reach::bounded;
+  }
+  if (m.reach == Reach::bounded && !s.can_bound) {
+    return refuse(
+        "No plane beyond the scene has light, casters and near plane on one side and the shadows "
+        "running towards it (is the light lower than a caster?): take --reach infinite.");
+  }
+  const bool one_point = s.directional_light && m.reach == Reach::infinite;
+
   // Counting.
   if (m.count == Count::z_pass && s.near_shaded && !m.unchecked) {
     return refuse(
@@ -144,7 +166,7 @@ Result<Method> decide(Method m, const Situation& s, const Capabilities& c) {
         "(near clip volume), so its counts would be wrong: take --count auto, zfail, near-cap or "
         "zp-plus.");
   }
-  if (s.light_along_view && !m.unchecked &&
+  if (s.light_along_view && one_point && !m.unchecked &&
       (m.count == Count::z_fail || m.count == Count::near_cap || m.count == Count::zp_plus)) {
     return refuse(
         "The parallel view looks exactly along the light: all ends of the volumes fall into one "
@@ -187,12 +209,12 @@ Result<Method> decide(Method m, const Situation& s, const Capabilities& c) {
         "A polygon's volume has its own few sides and no loop to string together: take "
         "--primitives quads.");
   }
-  if (m.primitives == Primitives::fans && !s.directional_light) {
+  if (m.primitives == Primitives::fans && !one_point) {
     return refuse(
-        "A fan needs one point at infinity behind all edges, which only a directional light has: "
-        "take --primitives strips.");
+        "A fan needs one point at infinity behind all edges, which only a directional light has, "
+        "and infinite reach: take --primitives strips.");
   }
-  if (m.primitives == Primitives::strips && s.directional_light) {
+  if (m.primitives == Primitives::strips && one_point) {
     return refuse(
         "Behind a directional light's edges there is one point at infinity: sides are triangles, "
         "which make no strip. Take --primitives fans.");

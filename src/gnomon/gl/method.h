@@ -29,6 +29,9 @@ enum class VolumesOf : std::uint8_t { automatic, caster, polygon };
 enum class Arithmetic : std::uint8_t { doubling, maximum };  // of alpha and screen masks
 enum class FarPlane : std::uint8_t { automatic, infinite, clamp };
 enum class Extrusion : std::uint8_t { cpu, shader, blend, blend_large };
+// How far volumes reach: to infinity, as the papers have them, or to a plane beyond everything that
+// can be seen, where light, casters and eye allow one; it saves filling what lies below the ground.
+enum class Reach : std::uint8_t { automatic, infinite, bounded };
 enum class Primitives : std::uint8_t { quads, strips, fans };
 
 // What a shadow is in the picture. lights: each light adds its part where it is not shadowed; the
@@ -45,6 +48,7 @@ struct Method {
   Arithmetic arithmetic = Arithmetic::doubling;
   FarPlane far_plane = FarPlane::automatic;
   Extrusion extrusion = Extrusion::shader;
+  Reach reach = Reach::automatic;
   Primitives primitives = Primitives::quads;
   Shadows shadows = Shadows::lights;
   double mask_scale = 1;  // size of the mask over that of the picture, 0 < scale <= 1
@@ -69,6 +73,7 @@ struct Situation {
   bool target_stencil = true;  // the framebuffer can have a stencil attachment
   bool target_alpha = true;
   bool infinite_view = true;  // the view's far plane can be at infinity
+  bool can_bound = false;     // there is a plane for Reach::bounded
   int lights = 1;
 };
 
@@ -85,6 +90,7 @@ std::string_view name_of(VolumesOf);
 std::string_view name_of(Arithmetic);
 std::string_view name_of(FarPlane);
 std::string_view name_of(Extrusion);
+std::string_view name_of(Reach);
 std::string_view name_of(Primitives);
 std::string_view name_of(Shadows);
 

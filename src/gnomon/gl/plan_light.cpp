@@ -1,7 +1,10 @@
 // Which parts are counted z-pass or z-fail, as one or by polygon, with all triangles or half.
 #include <algorithm>
 #include <array>
+#include <limits>
+#include <optional>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
@@ -33,6 +36,101 @@ bool overlap(const Box3& box, const Vec3& lo, const Vec3& hi) {
 bool along_view(const Camera& camera, const Light& light) {
   return camera.eye.w == 0 && light.w == 0 &&
          glm::cross(Vec3(camera.eye), Vec3(light)) == Vec3(0.0);
+}
+
+constexpr double kLarge = 16777216.0;  // "Accelerated Stencil Shadow Extrusion": LARGE
+// How far beyond everything that is seen the bounding plane lies: this share of the scene's
+// diagonal, and so many steps of the depth buffer at the farthest of it.
+constexpr double kBoundMargin = 1.0 / 1024;
+constexpr double kBoundSteps = 8;
+
+// A plane h with light, near rectangle, receivers and casters on its positive side (h . X > 0) and
+// every ray from the light through a caster crossing it: of the six sides of the receivers' box,
+// moved outwards, the one that the light meets most directly.
+std::optional<Vec4> bounding_plane(const Frame& frame, const Light& light) {
+  constexpr double kInf = std::numeric_limits<double>::infinity();
+  Vec3 lo(kInf), hi(-kInf), caster_lo(kInf), caster_hi(-kInf);
+  for (const InstanceSlot& instance : frame.state->instances) {
+    if (!instance.alive) continue;
+    const GpuMesh& mesh = frame.state->meshes[instance.mesh].gpu;
+    for (int i = 0; i < 8; ++i) {
+      const auto corner = [&](const Vec3& a, const Vec3& b) {
+        return Vec3(instance.to_scene *
+                    point(Vec3((i & 1) != 0 ? b.x : a.x, (i & 2) != 0 ? b.y : a.y,
+                               (i & 4) != 0 ? b.z : a.z)));
+      };
+      if (mesh.lo.x <= mesh.hi.x) {
+        lo = glm::min(lo, corner(mesh.lo, mesh.hi));
+        hi = glm::max(hi, corner(mesh.lo, mesh.hi));
+      }
+      if (mesh.caster_lo.x <= mesh.caster_hi.x) {
+        caster_lo = glm::min(caster_lo, corner(mesh.caster_lo, mesh.caster_hi));
+        caster_hi = glm::max(caster_hi, corner(mesh.caster_lo, mesh.caster_hi));
+      }
+    }
+  }
+  if (!(lo.x <= hi.x) || !(caster_lo.x <= caster_hi.x)) return {};
+  // One step of a 24-bit depth buffer at the farthest corner, in metres.
+  const Camera& camera = *frame.camera;
+  const glm::dmat4 rows = glm::transpose(camera.clip);
+  double step = 0;
+  for (int i = 0; i < 8; ++i) {
+    const Vec3 p((i & 1) != 0 ? hi.x : lo.x, (i & 2) != 0 ? hi.y : lo.y,
+                 (i & 4) != 0 ? hi.z : lo.z);
+    const double z = glm::dot(rows[2], point(p)), w = glm::dot(rows[3], point(p));
+    if (!(w > 0)) continue;
+    // d(z/w) along the axis of view, per metre.
+    const Vec3 slope = (Vec3(rows[2]) * w - Vec3(rows[3]) * z) / (w * w);
+    step = std::max(step, 0x1p-23 / glm::length(slope));
+  }
+  const double margin = glm::distance(lo, hi) * kBoundMargin + kBoundSteps * step;
+  std::optional<Vec4> best;
+  double most = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double sign : {1.0, -1.0}) {
+      Vec4 h(0, 0, 0, 0);
+      h[axis] = sign;
+      const double low =
+          sign > 0 ? std::min(lo[axis], caster_lo[axis]) : -std::max(hi[axis], caster_hi[axis]);
+      h.w = -(low - margin);
+      const double top = sign > 0 ? caster_hi[axis] : -caster_lo[axis];  // of casters
+      const double side = glm::dot(h, light);
+      // A point light keeps its distance from the highest caster, a sun an angle from the plane.
+      const double clear =
+          light.w != 0 ? (side - (top + h.w)) / side : side / glm::length(Vec3(light));
+      if (!(side > 0) || !(clear > kBoundMargin) || clear < most) continue;
+      bool near_inside = true;
+      for (const Vec3& p : camera.near_rectangle) near_inside &= glm::dot(h, point(p)) > 0;
+      if (!near_inside) continue;
+      most = clear;
+      best = h;
+    }
+  }
+  return best;
+}
+
+// Points behind vertices, in the mesh's coordinates; `plane` in the scene's.
+glm::mat4 projection(const Light& light, const Method& m, const std::optional<Vec4>& plane,
+                     const glm::dmat4& to_scene) {
+  glm::dmat4 out(0.0);
+  if (m.reach == Reach::bounded) {
+    // X' = (h.L) X - (h.X) L, divided by h.L.
+    const Vec4 h = *plane * to_scene;  // row times matrix
+    const double side = glm::dot(h, light);
+    for (int column = 0; column < 4; ++column) {
+      for (int row = 0; row < 4; ++row)
+        out[column][row] = (column == row ? 1.0 : 0.0) - light[row] * h[column] / side;
+    }
+    return glm::mat4(out);
+  }
+  const bool large = m.extrusion == Extrusion::blend_large;
+  const double k = large ? kLarge : 1.0;
+  for (int i = 0; i < 3; ++i) {
+    out[i][i] = light.w * k;
+    out[3][i] = -light[i] * k;
+  }
+  out[3][3] = large ? 1.0 : 0.0;
+  return glm::mat4(out);
 }
 
 }  // namespace
@@ -93,11 +191,16 @@ Result<LightPlan> plan_light(const Frame& frame, const Light& light, std::uint32
       if (!half || !part.convex) s.all_convex = false;
     }
   }
+  const std::optional<Vec4> plane = bounding_plane(frame, light);
+  s.can_bound = plane.has_value();
   Result<Method> decided = decide(wanted, s, state.capabilities);
   if (!decided) return decided.error();
   plan.method = decided.value();
   const Method& m = plan.method;
   for (std::size_t i = 0; i < plan.instances.size(); ++i) {
+    if (!state.instances[i].alive) continue;
+    plan.instances[i].project =
+        projection(plan.instances[i].light, m, plane, state.instances[i].to_scene);
     for (std::size_t p = 0; p < plan.instances[i].parts.size(); ++p) {
       PartPlan& pp = plan.instances[i].parts[p];
       pp.by_polygon = m.volumes == VolumesOf::polygon;

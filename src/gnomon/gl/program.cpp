@@ -92,9 +92,6 @@ Result<Programs> compile_programs() {
       {&p.volume[3], "volume, blended", kVolumeVertex, kColourFragment, "#define BLEND\n"},
       {&p.near_light, "near plane from the light", kNearLightVertex, kNearLightFragment, ""},
       {&p.flat, "flat", kFlatVertex, kColourFragment, ""},
-      {&p.surface, "surface", kSurfaceVertex, kSurfaceFragment, ""},
-      {&p.masked_surface, "surface with a mask", kSurfaceVertex, kSurfaceFragment,
-       "#define MASKED\n"},
       {&p.rectangle, "rectangle", kRectangleVertex, kColourFragment, ""},
       {&p.texture, "texture", kRectangleVertex, kTextureFragment, ""},
       {&p.overflow, "overflow", kRectangleVertex, kOverflowFragment, ""},
@@ -106,6 +103,22 @@ Result<Programs> compile_programs() {
     *item.to = std::move(made).value();
   }
   return p;
+}
+
+Result<GLuint> surface_program(Programs& programs, unsigned variant) {
+  ProgramHandle& program = programs.surface[variant];
+  if (!program) {
+    constexpr const char* kNames[] = {"LIT", "TEXTURED", "SMOOTH", "SPECULAR", "FADING", "MASKED"};
+    std::string defines;
+    for (int i = 0; i < 6; ++i) {
+      if ((variant >> i & 1u) != 0) defines += std::string("#define ") + kNames[i] + "\n";
+    }
+    Result<ProgramHandle> made =
+        compile("surface", shaders::kSurfaceVertex, shaders::kSurfaceFragment, defines);
+    if (!made) return made.error();
+    program = std::move(made).value();
+  }
+  return program.id();
 }
 
 }  // namespace gnomon::gl

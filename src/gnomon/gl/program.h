@@ -28,17 +28,30 @@ void set(GLuint program, const char* name, const glm::vec4& value);
 void set(GLuint program, const char* name, const glm::mat3& value);
 void set(GLuint program, const char* name, const glm::mat4& value);
 
+// What a lit surface needs: bits of a number below kSurfaceVariants.
+enum SurfaceVariant : unsigned {
+  kLit = 1,       // a light; without: ambient and emission alone
+  kTextured = 2,  // pictures for base colour or normals
+  kSmooth = 4,    // normals that are not those of facets
+  kSpecular = 8,
+  kFading = 16,  // distance attenuation or a radius
+  kMasked = 32,  // times a mask in a texture
+  kSurfaceVariants = 64
+};
+
 struct Programs {
-  ProgramHandle volume[4];       // by Extrusion
-  ProgramHandle near_light;      // casters as the light sees them on the near plane (ZP+)
-  ProgramHandle flat;            // one colour on surfaces
-  ProgramHandle surface;         // lit surfaces
-  ProgramHandle masked_surface;  // the same, times a mask in a texture
-  ProgramHandle rectangle;       // one colour over the viewport, at the near plane
-  ProgramHandle texture;         // a texture over the viewport
-  ProgramHandle overflow;        // texels that half floats lost; others are discarded
-  ProgramHandle plain;           // vertices that are in clip space already, one colour
+  ProgramHandle volume[4];   // by Extrusion
+  ProgramHandle near_light;  // casters as the light sees them on the near plane (ZP+)
+  ProgramHandle flat;        // one colour on surfaces
+  ProgramHandle surface[kSurfaceVariants];  // made when first used: surface_program()
+  ProgramHandle rectangle;                  // one colour over the viewport, at the near plane
+  ProgramHandle texture;                    // a texture over the viewport
+  ProgramHandle overflow;                   // texels that half floats lost; others are discarded
+  ProgramHandle plain;                      // vertices that are in clip space already, one colour
 };
 Result<Programs> compile_programs();
+
+// Error: the driver does not take it.
+Result<GLuint> surface_program(Programs& programs, unsigned variant);
 
 }  // namespace gnomon::gl

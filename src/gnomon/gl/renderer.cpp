@@ -30,13 +30,44 @@ void clear(const Frame& frame, const Target& target, const Vec3& background) {
   Pass p;
   p.depth_write = true;
   p.colour = {true, true, true, true};
-  apply(p, frame.state->support);
+  apply(p, frame);
   glClearColor(static_cast<float>(background.x), static_cast<float>(background.y),
                static_cast<float>(background.z), 0.0f);
   glClearDepthf(1.0f);
   glClearStencil(0);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT |
           (target.format.stencil ? GL_STENCIL_BUFFER_BIT : 0));
+}
+
+// The pixels that receivers may cover, a pixel more on each side; nothing where the eye's plane
+// meets their box.
+std::optional<Rect> visible_rectangle(const Frame& frame) {
+  glm::dvec2 lo(1.0), hi(-1.0);
+  for (const InstanceSlot& instance : frame.state->instances) {
+    if (!instance.alive) continue;
+    const GpuMesh& mesh = frame.state->meshes[instance.mesh].gpu;
+    if (!(mesh.lo.x <= mesh.hi.x)) continue;
+    const glm::dmat4 clip = frame.camera->clip * instance.to_scene;
+    for (int i = 0; i < 8; ++i) {
+      const Vec4 p = clip * point(Vec3((i & 1) != 0 ? mesh.hi.x : mesh.lo.x,
+                                       (i & 2) != 0 ? mesh.hi.y : mesh.lo.y,
+                                       (i & 4) != 0 ? mesh.hi.z : mesh.lo.z));
+      if (!(p.w > 0)) return {};
+      const glm::dvec2 at = glm::dvec2(p) / p.w;
+      lo = glm::min(lo, at);
+      hi = glm::max(hi, at);
+    }
+  }
+  lo = glm::clamp(lo, -1.0, 1.0);
+  hi = glm::clamp(hi, -1.0, 1.0);
+  const int width = frame.camera->width, height = frame.camera->height;
+  Rect r;
+  r.x = std::max(0, static_cast<int>(std::floor((lo.x + 1) / 2 * width)) - 1);
+  r.y = std::max(0, static_cast<int>(std::floor((lo.y + 1) / 2 * height)) - 1);
+  r.width = std::min(width, static_cast<int>(std::ceil((hi.x + 1) / 2 * width)) + 1) - r.x;
+  r.height = std::min(height, static_cast<int>(std::ceil((hi.y + 1) / 2 * height)) + 1) - r.y;
+  if (r.width <= 0 || r.height <= 0) return Rect{0, 0, 0, 0};
+  return r;
 }
 
 // A colour wherever nothing was drawn: a rectangle in the far plane.
@@ -82,7 +113,16 @@ glm::vec4 channel_of(const Method& m) {
 }
 
 // A mask at a lower resolution, in a texture (Roettger et al., 4.5).
-Result<Target> low_mask(const Frame& frame, const LightPlan& plan) {
+Result<Target> low_mask(const Frame& full, const LightPlan& plan) {
+  Frame frame = full;
+  if (full.scissor) {
+    const double k = plan.method.mask_scale;
+    const Rect& r = *full.scissor;
+    Rect low{static_cast<int>(std::floor(r.x * k)), static_cast<int>(std::floor(r.y * k)), 0, 0};
+    low.width = static_cast<int>(std::ceil((r.x + r.width) * k)) - low.x;
+    low.height = static_cast<int>(std::ceil((r.y + r.height) * k)) - low.y;
+    frame.scissor = low;
+  }
   Result<Target> made = make_target(format_of(*frame.camera, plan.method, plan.method.mask_scale));
   if (!made) return made.error();
   Target target = std::move(made).value();
@@ -245,9 +285,9 @@ Result<Renderer> Renderer::create(const Capabilities& capabilities) {
 }
 
 MeshId Renderer::add_mesh(const TriMesh& mesh, std::vector<std::uint8_t> casts,
-                          std::vector<std::uint8_t> receives) {
+                          std::vector<std::uint8_t> receives, const Appearance* look) {
   const StateGuard guard(state_->support);
-  state_->meshes.push_back({make_gpu_mesh(mesh, std::move(casts), std::move(receives)), 1});
+  state_->meshes.push_back({make_gpu_mesh(mesh, std::move(casts), std::move(receives), look), 1});
   return static_cast<MeshId>(state_->meshes.size() - 1);
 }
 
@@ -301,14 +341,14 @@ InstanceId Renderer::add_scene(const Scene& scene) {
     cast[t] = casts(scene, t) ? 1 : 0;
     receive[t] = receives(scene, t) ? 1 : 0;
   }
-  return add_instance(add_mesh(scene.mesh, std::move(cast), std::move(receive)));
+  return add_instance(add_mesh(scene.mesh, std::move(cast), std::move(receive), &scene.appearance));
 }
 
 Result<FrameStats> Renderer::draw(const Camera& camera, std::span<const LightSource> lights,
                                   const FrameOptions& options) {
   FrameStats counted;
   const StateGuard guard(state_->support);
-  const Frame frame{state_.get(), &camera, &counted};
+  Frame frame{state_.get(), &camera, &counted};
   Method wanted = options.method;
   const TargetFacts facts{true, true, static_cast<int>(lights.size())};
   std::vector<LightPlan> plans;
@@ -329,6 +369,7 @@ Result<FrameStats> Renderer::draw(const Camera& camera, std::span<const LightSou
   }
   const Target& picture = *state_->picture;
   clear(frame, picture, options.background);
+  frame.scissor = visible_rectangle(frame);
   Result<bool> drawn = true;
   if (wanted.shadows == Shadows::lights || lights.empty()) {
     Lighting ambient;
@@ -340,6 +381,7 @@ Result<FrameStats> Renderer::draw(const Camera& camera, std::span<const LightSou
     drawn = draw_paper(frame, picture, lights.front(), plans.front(), options);
   }
   if (!drawn) return drawn.error();
+  if (state_->failure) return *std::exchange(state_->failure, std::nullopt);
   if (options.show == Show::volumes) {
     bind(picture);
     Pass p = colour_pass(GL_LESS);

@@ -78,8 +78,9 @@ class Renderer {
   ~Renderer();
 
   // A mesh that casts and receives; `casts`, `receives`: one flag per triangle, empty: all do.
+  // `look`: materials, pictures, normals; none: white.
   MeshId add_mesh(const TriMesh& mesh, std::vector<std::uint8_t> casts = {},
-                  std::vector<std::uint8_t> receives = {});
+                  std::vector<std::uint8_t> receives = {}, const Appearance* look = nullptr);
   // New positions for the same triangles (a skinned or morphed mesh). Precondition: as many as
   // before; equal ones stay equal.
   void update_mesh(MeshId mesh, std::span<const Vec3> positions);

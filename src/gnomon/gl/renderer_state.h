@@ -40,6 +40,7 @@ struct Renderer::State {
   VertexArray near_cap_array;
   Query query;
   std::optional<Target> picture;  // of draw()
+  std::optional<Error> failure;   // of a shader that was needed in the middle of a frame
 };
 
 // One frame: what every step needs to know.
@@ -48,10 +49,18 @@ struct Frame {
   const Camera* camera = nullptr;
   FrameStats* stats = nullptr;
 
+  std::optional<Rect> scissor{};  // outside it nothing is seen
+
   glm::mat4 clip_of(const InstanceSlot& instance) const {
     return glm::mat4(camera->clip * instance.to_scene);
   }
 };
+
+// The pass, inside the frame's scissor.
+inline void apply(Pass pass, const Frame& frame) {
+  if (!pass.scissor) pass.scissor = frame.scissor;
+  apply(pass, frame.state->support);
+}
 
 // One light of a frame.
 struct LightPlan {
@@ -61,6 +70,7 @@ struct LightPlan {
   struct OfInstance {
     Light light{0, 0, 1, 0};  // in the mesh's coordinates
     NearClip near;            // likewise
+    glm::mat4 project{0.0f};  // likewise: a vertex to the point behind it
     std::vector<PartPlan> parts;
     bool caps_in_front = false;  // z-pass must count caps too: some caster is not drawn
   };

@@ -6,27 +6,22 @@
 namespace gnomon::gl::shaders {
 
 // Sides and caps. a_vertex: a mesh vertex with w = 1, or w = 0 for the point behind it as seen from
-// the light. CPU: already extruded. Otherwise x - Lx by a subtraction (w = 1 light) as the CPU does
-// it, or two matrices blended by the weight w ("Accelerated Stencil Shadow Extrusion via Vertex
-// Blending"): here in mesh coordinates before the one matrix to clip space, where the paper has two
-// modelview matrices before one projection.
+// the light. CPU: already extruded. SHADER: one or the other by the weight w. BLEND: the sum of
+// both by the weight ("Accelerated Stencil Shadow Extrusion via Vertex Blending"), here in mesh
+// coordinates before the one matrix to clip space, where the paper has two modelview matrices
+// before one projection. u_project for a far end at infinity has the rows (Lw 0 0 -Lx), ..., (0 0 0
+// 0): its product is the difference of the paper, as one subtraction rounds it.
 inline constexpr const char* kVolumeVertex = R"(
 in vec4 a_vertex;
 uniform mat4 u_clip;
-#ifdef SHADER
-uniform vec4 u_light;
-#endif
-#ifdef BLEND
-uniform mat4 u_keep;
 uniform mat4 u_project;
-#endif
 invariant gl_Position;
 void main() {
 #if defined(SHADER)
-  vec4 p = a_vertex.w > 0.5 ? a_vertex : vec4(a_vertex.xyz * u_light.w - u_light.xyz, 0.0);
+  vec4 p = a_vertex.w > 0.5 ? a_vertex : u_project * vec4(a_vertex.xyz, 1.0);
 #elif defined(BLEND)
   vec4 v = vec4(a_vertex.xyz, 1.0);
-  vec4 p = (u_keep * v) * a_vertex.w + (u_project * v) * (1.0 - a_vertex.w);
+  vec4 p = v * a_vertex.w + (u_project * v) * (1.0 - a_vertex.w);
 #else
   vec4 p = a_vertex;
 #endif
@@ -96,7 +91,8 @@ void main() {
 
 // Blinn and Phong, per pixel, in the encoding of the picture. Both sides of a surface are drawn:
 // the normal is turned to the eye. Normal maps take their tangents from the derivatives of position
-// and texture coordinates.
+// and texture coordinates. Variants by SurfaceVariant: what a picture does not have is not
+// computed.
 inline constexpr const char* kSurfaceFragment = R"(
 in vec3 v_position;
 in vec3 v_normal;
@@ -105,22 +101,20 @@ uniform vec4 u_eye;
 uniform vec4 u_light;
 uniform vec3 u_light_colour;
 uniform vec3 u_ambient;
-uniform float u_emission;
 uniform vec3 u_attenuation;
 uniform float u_radius;
 uniform vec3 u_base;
 uniform vec3 u_emissive;
 uniform vec3 u_specular;
 uniform float u_shininess;
+uniform float u_normal_scale;
 uniform int u_has_base;
 uniform int u_has_normal;
 uniform sampler2D u_base_map;
 uniform sampler2D u_normal_map;
-#ifdef MASKED
 uniform sampler2D u_mask;
 uniform vec4 u_mask_channel;
 uniform vec2 u_mask_scale;
-#endif
 out vec4 o_colour;
 vec3 mapped_normal(vec3 n) {
   vec3 dp1 = dFdx(v_position), dp2 = dFdy(v_position);
@@ -131,36 +125,49 @@ vec3 mapped_normal(vec3 n) {
   float scale = max(dot(t, t), dot(b, b));
   if (scale <= 0.0) return n;
   vec3 m = texture(u_normal_map, v_texture).xyz * 2.0 - 1.0;
+  m.xy *= u_normal_scale;
   // Texture rows run downwards, green upwards.
   return normalize((t * m.x - b * m.y) * inversesqrt(scale) + n * m.z);
 }
 void main() {
   vec3 base = u_base;
+#ifdef TEXTURED
   if (u_has_base == 1) base *= texture(u_base_map, v_texture).rgb;
-  vec3 to_eye = normalize(u_eye.xyz - v_position * u_eye.w);
-  vec3 n = normalize(v_normal);
-  if (dot(n, to_eye) < 0.0) n = -n;
-  if (u_has_normal == 1) n = mapped_normal(n);
-  vec3 towards = u_light.xyz - v_position * u_light.w;
-  float distance = length(towards);
-  vec3 l = towards / distance;
-  float reach = 1.0;
-  if (u_light.w != 0.0) {
-    reach = 1.0 / (u_attenuation.x + (u_attenuation.y + u_attenuation.z * distance) * distance);
-    if (u_radius > 0.0) {
-      float edge = clamp(1.0 - pow(distance / u_radius, 4.0), 0.0, 1.0);
-      reach *= edge * edge;
-    }
-  }
+#endif
+  vec3 colour = base * u_ambient + u_emissive;
+#ifdef LIT
+  vec3 n = gl_FrontFacing ? v_normal : -v_normal;
+#ifdef SMOOTH
+  n = normalize(n);
+#endif
+#ifdef TEXTURED
+  if (u_has_normal == 1) n = mapped_normal(normalize(n));
+#endif
+  vec3 l = u_light.xyz - v_position * u_light.w;
+  float squared = dot(l, l);
+  l *= inversesqrt(squared);
   float diffuse = max(dot(n, l), 0.0);
   vec3 lit = base * diffuse;
+#ifdef SPECULAR
+  vec3 to_eye = normalize(u_eye.xyz - v_position * u_eye.w);
   if (diffuse > 0.0 && u_shininess > 0.0)
     lit += u_specular * pow(max(dot(n, normalize(l + to_eye)), 0.0), u_shininess);
-  lit *= u_light_colour * reach;
+#endif
+  lit *= u_light_colour;
+#ifdef FADING
+  float distance = sqrt(squared);
+  lit /= u_attenuation.x + (u_attenuation.y + u_attenuation.z * distance) * distance;
+  if (u_radius > 0.0) {
+    float edge = clamp(1.0 - pow(distance / u_radius, 4.0), 0.0, 1.0);
+    lit *= edge * edge;
+  }
+#endif
 #ifdef MASKED
   lit *= dot(texture(u_mask, gl_FragCoord.xy * u_mask_scale), u_mask_channel);
 #endif
-  o_colour = vec4(lit + base * u_ambient + u_emissive * u_emission, 1.0);
+  colour += lit;
+#endif
+  o_colour = vec4(colour, 1.0);
 }
 )";
 

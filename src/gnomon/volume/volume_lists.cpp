@@ -12,10 +12,9 @@ std::uint32_t far_vertex(std::uint32_t v) { return 2 * v + 1; }
 // The side over the edge (a, b), counterclockwise where it is entered if it is not turned. Both
 // halves meet in the diagonal from a to b at infinity; a strip along a loop splits its quads in the
 // same way.
-void push_side(VolumeLists& lists, std::uint32_t a, std::uint32_t b, bool turned,
-               bool directional) {
+void push_side(VolumeLists& lists, std::uint32_t a, std::uint32_t b, bool turned, bool one_point) {
   std::vector<std::uint32_t>& list = lists.lists[turned ? kSidesTurned : kSides];
-  if (directional) {
+  if (one_point) {
     list.insert(list.end(), {far_vertex(a), near_vertex(a), near_vertex(b)});
   } else {
     list.insert(list.end(), {far_vertex(a), near_vertex(a), far_vertex(b),  //
@@ -23,10 +22,10 @@ void push_side(VolumeLists& lists, std::uint32_t a, std::uint32_t b, bool turned
   }
 }
 
-void push_caps(VolumeLists& lists, const Triangle& t, std::int8_t light_side, bool directional) {
+void push_caps(VolumeLists& lists, const Triangle& t, std::int8_t light_side, bool one_point) {
   auto& near_cap = lists.lists[light_side < 0 ? kLightCap : kLightCapTurned];
   near_cap.insert(near_cap.end(), {near_vertex(t[0]), near_vertex(t[1]), near_vertex(t[2])});
-  if (directional) return;
+  if (one_point) return;
   // The dark cap is left where the light cap is entered.
   auto& far_cap = lists.lists[light_side < 0 ? kDarkCapTurned : kDarkCap];
   far_cap.insert(far_cap.end(), {far_vertex(t[0]), far_vertex(t[1]), far_vertex(t[2])});
@@ -95,7 +94,7 @@ void find_part_silhouette(Silhouette& out, const EdgeTable& table,
 void append_volume(VolumeLists& lists, const TriMesh& mesh,
                    std::span<const SilhouetteEdge> silhouette,
                    std::span<const std::uint32_t> triangles, std::span<const std::int8_t> sides,
-                   bool directional, Casting casting, SideForm form, std::uint32_t caster,
+                   bool one_point, Casting casting, SideForm form, std::uint32_t caster,
                    LoopScratch& scratch) {
   const Volume volume = begin_volume(lists, caster);
   if (form == SideForm::triangles) {
@@ -103,26 +102,26 @@ void append_volume(VolumeLists& lists, const TriMesh& mesh,
     // and a polygon of weight -1 counts +1 where it is seen counterclockwise (shadow_volume.h).
     for (const SilhouetteEdge& e : silhouette) {
       for (int i = 0; i < std::abs(e.multiplicity); ++i)
-        push_side(lists, e.a, e.b, e.multiplicity < 0, directional);
+        push_side(lists, e.a, e.b, e.multiplicity < 0, one_point);
     }
   } else {
     push_loops(lists.lists[kSides], find_loops(silhouette, &scratch), form);
   }
   for (const std::uint32_t t : triangles) {
-    if (casts(casting, sides[t])) push_caps(lists, mesh.triangles[t], sides[t], directional);
+    if (casts(casting, sides[t])) push_caps(lists, mesh.triangles[t], sides[t], one_point);
   }
   end_volume(lists, volume);
 }
 
 void append_prism(VolumeLists& lists, const TriMesh& mesh, std::uint32_t triangle,
-                  std::int8_t light_side, bool directional, std::uint32_t caster) {
+                  std::int8_t light_side, bool one_point, std::uint32_t caster) {
   Volume volume = begin_volume(lists, caster);
   const Triangle& t = mesh.triangles[triangle];
   for (int i = 0; i < 3; ++i) {
     const std::uint32_t a = t[i], b = t[(i + 1) % 3];
-    push_side(lists, std::min(a, b), std::max(a, b), (a < b) != (light_side > 0), directional);
+    push_side(lists, std::min(a, b), std::max(a, b), (a < b) != (light_side > 0), one_point);
   }
-  push_caps(lists, t, light_side, directional);
+  push_caps(lists, t, light_side, one_point);
   end_volume(lists, volume);
 }
 

@@ -3,8 +3,9 @@
 // Based on: Everitt and Kilgard 2002, sections 3.2 and 3.4; Accelerated Stencil Shadow Extrusion
 // via Vertex Blending, 2003 (doubled vertices); weights after Kim et al. 2007.
 //
-// Index 2v is vertex v of the mesh, (x, y, z, 1); index 2v + 1 is the point at infinity behind it
-// as seen from the light, (x, y, z, 1) Lw - L, w = 0 (for a directional light one point for all).
+// Index 2v is vertex v of the mesh, (x, y, z, 1); index 2v + 1 is the point behind it as seen from
+// the light: at infinity, (x, y, z, 1) Lw - L, w = 0, or on a plane beyond which nothing is seen.
+// Behind a directional light's vertices there is one point at infinity for all: `one_point`.
 //
 // Faces: a triangle of `sides`, `light_cap` and `dark_cap` is counterclockwise as seen from where a
 // ray enters the volume: its front face counts +1. The turned lists are the other way round: there
@@ -84,7 +85,7 @@ EdgesOfParts edges_of_parts(const EdgeTable& edges, const std::vector<std::uint3
 void append_volume(VolumeLists& lists, const TriMesh& mesh,
                    std::span<const SilhouetteEdge> silhouette,
                    std::span<const std::uint32_t> triangles, std::span<const std::int8_t> sides,
-                   bool directional, Casting casting, SideForm form, std::uint32_t caster,
+                   bool one_point, Casting casting, SideForm form, std::uint32_t caster,
                    LoopScratch& scratch);
 
 // The silhouette of a part for a choice of its casting triangles, appended to `out`. `edges`: at
@@ -97,6 +98,6 @@ void find_part_silhouette(Silhouette& out, const EdgeTable& table,
 
 // Appends the volume of one triangle: its prism, which is convex.
 void append_prism(VolumeLists& lists, const TriMesh& mesh, std::uint32_t triangle,
-                  std::int8_t light_side, bool directional, std::uint32_t caster);
+                  std::int8_t light_side, bool one_point, std::uint32_t caster);
 
 }  // namespace gnomon
