@@ -58,8 +58,8 @@ struct Builder {
   void box(const Vec3& lo, const Vec3& hi, const Motion& move = {}, bool inwards = false) {
     std::array<Vec3, 8> p;
     for (int k = 0; k < 8; ++k) {
-      p[k] = move(Vec3((k & 1) != 0 ? hi.x : lo.x, (k & 2) != 0 ? hi.y : lo.y,
-                       (k & 4) != 0 ? hi.z : lo.z));
+      p[k] = move(
+          Vec3((k & 1) != 0 ? hi.x : lo.x, (k & 2) != 0 ? hi.y : lo.y, (k & 4) != 0 ? hi.z : lo.z));
     }
     constexpr int kFaces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
                                   {1, 3, 7, 5}, {3, 2, 6, 7}, {2, 0, 4, 6}};
@@ -100,14 +100,16 @@ struct Builder {
   }
   // The twelve beams of a cube of half-width `half`, one closed surface of genus 5.
   void cage(double half, double beam, const Motion& move) {
-    cells({-half, -half + beam, half - beam, half},
-          [](int i, int j, int k) { return (i == 1) + (j == 1) + (k == 1) <= 1; }, move);
+    cells(
+        {-half, -half + beam, half - beam, half},
+        [](int i, int j, int k) { return (i == 1) + (j == 1) + (k == 1) <= 1; }, move);
   }
   // 2 x 2 x 2 such cubes that share their beams: genus 28.
   void lattice(double half, double beam, const Motion& move) {
     const double b = beam / 2;
-    cells({-half, -half + beam, -b, b, half - beam, half},
-          [](int i, int j, int k) { return i % 2 + j % 2 + k % 2 <= 1; }, move);
+    cells(
+        {-half, -half + beam, -b, b, half - beam, half},
+        [](int i, int j, int k) { return i % 2 + j % 2 + k % 2 <= 1; }, move);
   }
   // A tube along the (2,3) torus knot: one closed surface.
   void knot(double size, double tube, const Motion& move, int along = 72, int around = 8) {
@@ -243,10 +245,11 @@ void add_figure_1(Cases& c) {
     things(b);
     b.begin("board");
     b.quad({-3, -7, -1}, {0.1, -7, -1}, {0.1, -7, 5}, {-3, -7, 5});
-    c.add("figure-1-some-pixels",
-          "The edge of a board behind the eye shades half of the near plane; the other sides of its "
-          "volume lie outside of the picture.",
-          b, lamp(0.2, -8.5, 2.5), c.from({0, -6, 2}, {0, 4, 1.5}))
+    c.add(
+         "figure-1-some-pixels",
+         "The edge of a board behind the eye shades half of the near plane; the other sides of its "
+         "volume lie outside of the picture.",
+         b, lamp(0.2, -8.5, 2.5), c.from({0, -6, 2}, {0, 4, 1.5}))
         .z_pass_fails = true;
   }
   {
@@ -359,8 +362,9 @@ void add_eye_and_near_plane(Cases& c) {
     b.begin("posts");
     b.box({-6, 3, 0}, {-5, 4, 3});
     b.box({4, 5, 0}, {5, 6, 4});
-    c.add("eye-in-many-volumes", "The eye is in twelve volumes at once, and leaves them one by one.",
-          b, sun(0.3, -0.2, 1), c.from({-0.8, -5.2, 1.6}, {0.5, 5, 0.6}, 1.1))
+    c.add("eye-in-many-volumes",
+          "The eye is in twelve volumes at once, and leaves them one by one.", b, sun(0.3, -0.2, 1),
+          c.from({-0.8, -5.2, 1.6}, {0.5, 5, 0.6}, 1.1))
         .z_pass_fails = true;
   }
   {
@@ -382,9 +386,10 @@ void add_eye_and_near_plane(Cases& c) {
   {
     Builder b;
     towers(b);
-    c.add("eye-on-a-side",
-          "The eye lies exactly in the plane of a volume's side, which so is a line in the picture.",
-          b, sun(0, 3, 2), c.from({2, -12, 2}, {-2, 3, 2}, 0.9));
+    c.add(
+        "eye-on-a-side",
+        "The eye lies exactly in the plane of a volume's side, which so is a line in the picture.",
+        b, sun(0, 3, 2), c.from({2, -12, 2}, {-2, 3, 2}, 0.9));
   }
   {
     Builder b;
@@ -397,10 +402,11 @@ void add_eye_and_near_plane(Cases& c) {
     towers(b);
     b.begin("fence");
     for (int k = -3; k <= 3; ++k) b.box({k - 0.12, -14.2, 0}, {k + 0.12, -14, 5});
-    c.add("fence-behind-eye",
-          "A fence between eye and lamp, both behind the near plane: stripes that no visible caster "
-          "throws.",
-          b, lamp(0.3, -17, 2.2), c.from({0, -12, 2}, {-1, 4, 1.5}, 0.9))
+    c.add(
+         "fence-behind-eye",
+         "A fence between eye and lamp, both behind the near plane: stripes that no visible caster "
+         "throws.",
+         b, lamp(0.3, -17, 2.2), c.from({0, -12, 2}, {-1, 4, 1.5}, 0.9))
         .z_pass_fails = true;
   }
   {
@@ -414,9 +420,10 @@ void add_eye_and_near_plane(Cases& c) {
     towers(b);
     b.begin("stick");
     b.box({-0.05, -11.4, 1.2}, {0.05, -11.3, 3});
-    HardCase& h = c.add("light-in-near-plane",
-                        "The lamp lies in the near plane, so that seen from it the plane is a line.",
-                        b, lamp(1.5, -11, 2), c.from({0.5, -12, 2}, {0.5, 4, 2}, 0.9));
+    HardCase& h =
+        c.add("light-in-near-plane",
+              "The lamp lies in the near plane, so that seen from it the plane is a line.", b,
+              lamp(1.5, -11, 2), c.from({0.5, -12, 2}, {0.5, 4, 2}, 0.9));
     h.near_plane = 1;
   }
   {
@@ -553,8 +560,8 @@ void add_containers(Cases& c) {
     Builder b;
     b.corner();
     b.begin("crate");  // walls with a thickness, open above: closed, not convex
-    b.cells({-1, -0.9, 0.9, 1},
-            [](int i, int j, int k) { return i != 1 || j != 1 || k == 0; }, {0.4, 0, {0, 1, 1}});
+    b.cells({-1, -0.9, 0.9, 1}, [](int i, int j, int k) { return i != 1 || j != 1 || k == 0; },
+            {0.4, 0, {0, 1, 1}});
     c.add("light-in-crate", "A lamp in a crate that is open above.", b, lamp(0.1, 0.9, 1.2),
           c.from({5, -8, 5}, {-0.6, 1.2, 1.2}, 0.9));
   }
@@ -705,8 +712,8 @@ Flight flight(int width, int height) {
     const Vec3 ahead = glm::normalize(at(t + 0.05) - eye);
     const Vec3 inwards = glm::normalize(Vec3(0, 0, 1) - eye);
     const double turn = 0.5 + 0.5 * std::sin(5 * t);
-    f.views.push_back(perspective_view(eye, eye + ahead + turn * inwards, {0, 0, 1}, 1.0, width,
-                                       height));
+    f.views.push_back(
+        perspective_view(eye, eye + ahead + turn * inwards, {0, 0, 1}, 1.0, width, height));
   }
   return f;
 }

@@ -44,8 +44,8 @@ TEST_P(HardCases, AreTheExactMaskByEveryMethod) {
   ShadowMask first;
   for (const Api api : {Api::opengl, Api::opengl_es}) {
     Stage stage = stage_of(c.scene, api);
-    for (const Count count :
-         {Count::automatic, Count::z_fail, Count::mixed, Count::near_cap, Count::zp_plus, Count::z_pass}) {
+    for (const Count count : {Count::automatic, Count::z_fail, Count::mixed, Count::near_cap,
+                              Count::zp_plus, Count::z_pass}) {
       for (const MaskIn in : {MaskIn::stencil, MaskIn::alpha, MaskIn::screen}) {
         Method m;
         m.mask = in;
@@ -53,13 +53,16 @@ TEST_P(HardCases, AreTheExactMaskByEveryMethod) {
         const std::string what = (api == Api::opengl ? "OpenGL, " : "OpenGL ES, ") + describe(m);
         const Result<ShadowMask> mask = stage.renderer.mask(camera, c.light, m);
         if (!mask) {
-          std::printf("%-34s refused: %s: %s\n", c.name.c_str(), what.c_str(), mask.error().message.substr(0,70).c_str());
+          std::printf("%-34s refused: %s: %s\n", c.name.c_str(), what.c_str(),
+                      mask.error().message.substr(0, 70).c_str());
           continue;
         }
         if (first.state.empty()) first = mask.value();
         const Difference d = compare(mask.value(), exact);
         const int n = count_different(mask.value(), first);
-        if (d.pixels > 0 || n > 0) std::printf("%-34s %s: differ %d far %d from first %d\n", c.name.c_str(), what.c_str(), d.pixels, d.far_off, n);
+        if (d.pixels > 0 || n > 0)
+          std::printf("%-34s %s: differ %d far %d from first %d\n", c.name.c_str(), what.c_str(),
+                      d.pixels, d.far_off, n);
         expect_exact(mask.value(), exact, what);
       }
     }

@@ -18,6 +18,7 @@ struct InstanceVolumes {
   const LightPlan::OfInstance* plan;
   // Per volume, the vertices of its near caps in State::near_caps: first[k] .. first[k + 1].
   std::vector<std::uint32_t> near_caps;
+  bool offset = false;  // sides are moved away: the light grazes something of the scene
 };
 
 // Volumes drawn together.
@@ -55,16 +56,25 @@ void draw_range(const Frame& frame, const IndexRange& range, GLenum primitive = 
   frame.stats->volume_triangles += range.count / 3;
 }
 
+// Sides that start at an edge of a triangle whose plane holds the light lie in that plane. Exactly,
+// they are just behind whatever lies there and is seen from its lit side, and just before what is
+// seen from its unlit one, which count_unlit_receivers() shades; so where there are such triangles,
+// all sides are drawn a little farther away than they are: by the rounding of depths, and that of
+// corners to a 256th of a pixel, eight times over.
+constexpr float kOffsetSlope = 8.0f / 256, kOffsetSteps = 8;
+
 // Which lists a way of counting draws: z-fail the whole surface of the volume, z-pass its sides,
 // and the light caps of casters that are not seen themselves.
 void draw_lists(const Frame& frame, const Method& m,
                 const std::array<IndexRange, kListKinds>& ranges, bool z_fail, bool caps,
-                bool turned) {
+                bool turned, bool offset) {
   const int first = turned ? kSidesTurned : kSides;
+  if (offset) offset_depth(kOffsetSlope, kOffsetSteps);
   draw_range(frame, ranges[first],
              m.primitives == Primitives::strips ? GL_TRIANGLE_STRIP
              : m.primitives == Primitives::fans ? GL_TRIANGLE_FAN
                                                 : GL_TRIANGLES);
+  if (offset) offset_depth(0, 0);
   if (z_fail || caps) draw_range(frame, ranges[first + kLightCap]);
   if (z_fail) draw_range(frame, ranges[first + kDarkCap]);
 }
@@ -132,6 +142,7 @@ void update_all_lists(const Frame& frame, const LightPlan& plan, Prepared& prepa
 
 Prepared prepare(const Frame& frame, const LightPlan& plan) {
   Prepared out;
+  bool grazed = false;
   for (std::size_t i = 0; i < plan.instances.size(); ++i) {
     const LightPlan::OfInstance& of = plan.instances[i];
     if (of.parts.empty()) continue;
@@ -142,7 +153,9 @@ Prepared prepare(const Frame& frame, const LightPlan& plan) {
     out.changed.push_back(update_sides(v, mesh.gpu, mesh.version, of.light, of.parts));
     out.layers += v.layers;
     out.all.push_back({&instance, &mesh.gpu, &v, &of, {}});
+    grazed |= !v.grazed.empty();
   }
+  for (InstanceVolumes& v : out.all) v.offset = grazed;
   update_all_lists(frame, plan, out);
   for (const InstanceVolumes& v : out.all) {
     frame.stats->z_fail_volumes += static_cast<int>(v.volumes->z_fail_volumes);
@@ -271,7 +284,7 @@ void count_phase(const Frame& frame, const LightPlan& plan, const Method& m,
         if (!applied) apply(stencil_pass(m, grouped, z_fail, turned, phase), frame);
         applied = true;
         use_volumes(frame, plan, *b.of);
-        draw_lists(frame, m, b.ranges, z_fail, b.of->plan->caps_in_front, turned);
+        draw_lists(frame, m, b.ranges, z_fail, b.of->plan->caps_in_front, turned, b.of->offset);
       }
     }
   }
@@ -402,7 +415,7 @@ void count_by_blending(const Frame& frame, const LightPlan& plan, const Prepared
           const bool draw_enter = first != z_fail;
           p.cull = draw_enter != turned ? GL_BACK : GL_FRONT;
           apply(p, frame);
-          draw_lists(frame, m, b.ranges, z_fail, v.plan->caps_in_front, turned);
+          draw_lists(frame, m, b.ranges, z_fail, v.plan->caps_in_front, turned, v.offset);
         }
       }
     }
@@ -486,21 +499,29 @@ void normalise(const Frame& frame, const Method& m) {
   }
 }
 
-// --- receivers that do not cast --------------------------------------------------------------
+// --- receivers whose volumes do not shade them ------------------------------------------------
 
-// Their unlit side is in shadow though nothing of theirs counts (DEFINITIONS, "The prism and the
-// count"): drawn again where they are seen, they add one.
+// The unlit side of a receiver that does not cast is in shadow though nothing of its own counts
+// (docs/exactness.md); that of one which the light grazes, though its volume's sides are moved
+// behind it. Drawn again where they are seen, they add one.
 void count_unlit_receivers(const Frame& frame, const LightPlan& plan, bool grouped) {
   const Method& m = plan.method;
   for (std::size_t i = 0; i < plan.instances.size(); ++i) {
     const InstanceSlot& instance = frame.state->instances[i];
     if (!instance.alive) continue;
     const GpuMesh& mesh = frame.state->meshes[instance.mesh].gpu;
-    if (mesh.only_receive.empty()) continue;
+    std::vector<std::uint32_t> unlit = mesh.only_receive;
+    if (instance.volumes.size() > plan.number) {
+      const CasterVolumes& v = instance.volumes[plan.number];
+      for (const std::uint32_t t : v.grazed) {
+        if (mesh.casts[t] != 0) unlit.push_back(t);
+      }
+    }
+    if (unlit.empty()) continue;
     for (const bool positive : {false, true}) {
       std::vector<std::uint32_t> indices;
       ExactStats stats;
-      for (const std::uint32_t t : mesh.only_receive) {
+      for (const std::uint32_t t : unlit) {
         const Triangle& v = mesh.mesh.triangles[t];
         const int side = light_side(mesh.mesh.positions[v[0]], mesh.mesh.positions[v[1]],
                                     mesh.mesh.positions[v[2]], plan.instances[i].light, stats);
@@ -603,8 +624,8 @@ void draw_volume_faces(const Frame& frame, const LightPlan& plan, const Pass& pa
       use_volumes(frame, plan, *b.of);
       set(frame.state->programs.volume[static_cast<std::size_t>(plan.method.extrusion)].id(),
           "u_colour", colour);
-      draw_lists(frame, plan.method, b.ranges, false, false, false);
-      draw_lists(frame, plan.method, b.ranges, false, false, true);
+      draw_lists(frame, plan.method, b.ranges, false, false, false, false);
+      draw_lists(frame, plan.method, b.ranges, false, false, true, false);
     }
   }
 }

@@ -178,6 +178,19 @@ Result<Method> decide(Method m, const Situation& s, const Capabilities& c) {
         "on the graphics card is right there. Turn the view.");
   }
 
+  if (m.count == Count::zp_plus && s.light_in_near_plane && s.near_shaded) {
+    return refuse(
+        "The light lies in the near plane, so nothing can be drawn on it as seen from the light: "
+        "take --count auto, zfail or near-cap.");
+  }
+  if (s.parallel_view && !s.directional_light && m.reach == Reach::infinite && !m.unchecked &&
+      (m.count == Count::z_fail ||
+       ((m.count == Count::automatic || m.count == Count::mixed) && s.near_shaded))) {
+    return refuse(
+        "Rays of a parallel view may run inside a lamp's volume for ever, and its dark cap at "
+        "infinity has no place in the picture: take --reach bounded, or raise the lamp.");
+  }
+
   // Volumes.
   if (!stencil) {
     // The clamp at 1 loses counts unless every draw has one entry and one exit on each view ray;

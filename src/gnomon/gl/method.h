@@ -68,9 +68,10 @@ struct Situation {
   bool parallel_view = false;
   bool light_along_view = false;  // a parallel view exactly along a directional light
   bool directional_light = false;
-  bool all_convex = true;      // every caster is closed and convex
-  bool near_shaded = false;    // some caster may shade the near rectangle (near clip volume)
-  bool target_stencil = true;  // the framebuffer can have a stencil attachment
+  bool light_in_near_plane = false;  // to rounding: seen from it the plane is a line
+  bool all_convex = true;            // every caster is closed and convex
+  bool near_shaded = false;          // some caster may shade the near rectangle (near clip volume)
+  bool target_stencil = true;        // the framebuffer can have a stencil attachment
   bool target_alpha = true;
   bool infinite_view = true;  // the view's far plane can be at infinity
   bool can_bound = false;     // there is a plane for Reach::bounded
