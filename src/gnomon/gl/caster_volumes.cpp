@@ -133,10 +133,9 @@ bool update_sides(CasterVolumes& v, const GpuMesh& m, std::uint64_t mesh_version
   if (same_light && v.plan == plan) return false;
   if (!same_light) {
     v.light_side = light_sides(m.mesh, light);
-    v.grazed.clear();
-    for (std::uint32_t t = 0; t < m.mesh.triangles.size(); ++t) {
-      if (m.receives[t] != 0 && grazes(m.mesh, t, light)) v.grazed.push_back(t);
-    }
+    v.grazed = false;
+    for (std::uint32_t t = 0; t < m.mesh.triangles.size() && !v.grazed; ++t)
+      v.grazed = m.receives[t] != 0 && grazes(m.mesh, t, light);
   }
   v.light = light;
   v.mesh_version = mesh_version;

@@ -50,7 +50,7 @@ struct CasterVolumes {
   std::vector<std::uint8_t> region_z_fail;  // per region
 
   std::vector<std::int8_t> light_side;  // per triangle
-  std::vector<std::uint32_t> grazed;    // receiving triangles whose plane nearly holds the light
+  bool grazed = false;  // the plane of some receiving triangle nearly holds the light
   std::vector<std::uint8_t> casting;    // per triangle: it counts
   LitRegions regions;                   // of parts by region
   int layers = 0;                       // no ray from the light crosses more casting triangles

@@ -127,6 +127,7 @@ struct Prepared {
   std::vector<bool> changed;  // of each, its sides
   long long layers = 0;       // no ray from the light crosses more casting triangles
   bool grouped = false;
+  bool offset = false;  // sides are moved away
 };
 
 void update_all_lists(const Frame& frame, const LightPlan& plan, Prepared& prepared) {
@@ -142,7 +143,6 @@ void update_all_lists(const Frame& frame, const LightPlan& plan, Prepared& prepa
 
 Prepared prepare(const Frame& frame, const LightPlan& plan) {
   Prepared out;
-  bool grazed = false;
   for (std::size_t i = 0; i < plan.instances.size(); ++i) {
     const LightPlan::OfInstance& of = plan.instances[i];
     if (of.parts.empty()) continue;
@@ -153,9 +153,9 @@ Prepared prepare(const Frame& frame, const LightPlan& plan) {
     out.changed.push_back(update_sides(v, mesh.gpu, mesh.version, of.light, of.parts));
     out.layers += v.layers;
     out.all.push_back({&instance, &mesh.gpu, &v, &of, {}});
-    grazed |= !v.grazed.empty();
+    out.offset |= v.grazed;
   }
-  for (InstanceVolumes& v : out.all) v.offset = grazed;
+  for (InstanceVolumes& v : out.all) v.offset = out.offset;
   update_all_lists(frame, plan, out);
   for (const InstanceVolumes& v : out.all) {
     frame.stats->z_fail_volumes += static_cast<int>(v.volumes->z_fail_volumes);
@@ -502,45 +502,48 @@ void normalise(const Frame& frame, const Method& m) {
 // --- receivers whose volumes do not shade them ------------------------------------------------
 
 // The unlit side of a receiver that does not cast is in shadow though nothing of its own counts
-// (docs/exactness.md); that of one which the light grazes, though its volume's sides are moved
-// behind it. Drawn again where they are seen, they add one.
-void count_unlit_receivers(const Frame& frame, const LightPlan& plan, bool grouped) {
+// (docs/exactness.md). Where sides are moved away, those that belong before an unlit side may have
+// come behind it. Such receivers, drawn again where they are seen, add one.
+void count_unlit_receivers(const Frame& frame, const LightPlan& plan, const Prepared& prepared) {
   const Method& m = plan.method;
   for (std::size_t i = 0; i < plan.instances.size(); ++i) {
     const InstanceSlot& instance = frame.state->instances[i];
     if (!instance.alive) continue;
     const GpuMesh& mesh = frame.state->meshes[instance.mesh].gpu;
-    std::vector<std::uint32_t> unlit = mesh.only_receive;
-    if (instance.volumes.size() > plan.number) {
+    // By light side: of -1 the light sees the counterclockwise side, and the other one is unlit.
+    std::array<std::vector<std::uint32_t>, 2> indices;
+    const auto add = [&](std::uint32_t t, int side) {
+      const Triangle& v = mesh.mesh.triangles[t];
+      std::vector<std::uint32_t>& to = indices[side > 0 ? 1 : 0];
+      to.insert(to.end(), {2 * v[0], 2 * v[1], 2 * v[2]});
+    };
+    ExactStats exact;
+    for (const std::uint32_t t : mesh.only_receive) {
+      const Triangle& v = mesh.mesh.triangles[t];
+      add(t, light_side(mesh.mesh.positions[v[0]], mesh.mesh.positions[v[1]],
+                        mesh.mesh.positions[v[2]], plan.instances[i].light, exact));
+    }
+    if (prepared.offset && !plan.instances[i].parts.empty()) {
       const CasterVolumes& v = instance.volumes[plan.number];
-      for (const std::uint32_t t : v.grazed) {
-        if (mesh.casts[t] != 0) unlit.push_back(t);
+      for (std::uint32_t t = 0; t < mesh.mesh.triangles.size(); ++t) {
+        if (mesh.casts[t] != 0 && mesh.receives[t] != 0) add(t, v.light_side[t]);
       }
     }
-    if (unlit.empty()) continue;
     for (const bool positive : {false, true}) {
-      std::vector<std::uint32_t> indices;
-      ExactStats stats;
-      for (const std::uint32_t t : unlit) {
-        const Triangle& v = mesh.mesh.triangles[t];
-        const int side = light_side(mesh.mesh.positions[v[0]], mesh.mesh.positions[v[1]],
-                                    mesh.mesh.positions[v[2]], plan.instances[i].light, stats);
-        if ((side > 0) == positive) indices.insert(indices.end(), {2 * v[0], 2 * v[1], 2 * v[2]});
-      }
-      if (indices.empty()) continue;
+      const std::vector<std::uint32_t>& drawn = indices[positive ? 1 : 0];
+      if (drawn.empty()) continue;
       Pass p;
       p.depth_func = GL_EQUAL;
       p.depth_clamp = m.far_plane == FarPlane::clamp;
-      // The light sees the counterclockwise side of those of side -1: their clockwise one is dark.
       p.cull = positive ? GL_BACK : GL_FRONT;
       float brightness = 1;
       if (m.mask == MaskIn::stencil) {
         p.stencil_test = true;
-        if (grouped) {  // the shaded bit says it all
+        if (prepared.grouped) {  // the shaded bit says it all
           p.stencil_ref = static_cast<GLint>(kShadedBit);
           p.stencil_write = kShadedBit;
         }
-        p.front.depth_pass = p.back.depth_pass = grouped ? GL_REPLACE : GL_INCR;
+        p.front.depth_pass = p.back.depth_pass = prepared.grouped ? GL_REPLACE : GL_INCR;
       } else {
         const Blend& blend = m.arithmetic == Arithmetic::doubling ? kDouble : kHalve;
         p.blend = true;
@@ -562,9 +565,9 @@ void count_unlit_receivers(const Frame& frame, const LightPlan& plan, bool group
       glVertexAttribPointer(kVertex, 4, GL_FLOAT, GL_FALSE, 0, nullptr);
       glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffer.id());
       glBufferData(GL_ELEMENT_ARRAY_BUFFER,
-                   static_cast<GLsizeiptr>(indices.size() * sizeof(std::uint32_t)), indices.data(),
+                   static_cast<GLsizeiptr>(drawn.size() * sizeof(std::uint32_t)), drawn.data(),
                    GL_STREAM_DRAW);
-      glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(indices.size()), GL_UNSIGNED_INT, nullptr);
+      glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(drawn.size()), GL_UNSIGNED_INT, nullptr);
       glBindVertexArray(0);
     }
   }
@@ -601,12 +604,12 @@ Result<LitTest> draw_light_mask(const Frame& frame, const LightPlan& plan, const
   Prepared prepared = prepare(frame, plan);
   if (m.mask == MaskIn::stencil) {
     const LitTest lit = count_in_stencil(frame, plan, prepared);
-    count_unlit_receivers(frame, plan, prepared.grouped);
+    count_unlit_receivers(frame, plan, prepared);
     return lit;
   }
   clear_colours(frame, m);
   count_by_blending(frame, plan, prepared);
-  count_unlit_receivers(frame, plan, false);
+  count_unlit_receivers(frame, plan, prepared);
   if (m.float_bits > 0) {
     Result<bool> good = check_floats(frame, m, *target);
     if (!good) return good.error();
