@@ -12,7 +12,7 @@ namespace gnomon::gl {
 namespace {
 
 constexpr int kFewLayers = 63;  // fits every way of counting
-constexpr int kFinestLayerCells = 1024;
+constexpr int kCoarsestLayerCells = 32, kFinestLayerCells = 1024;
 
 SideForm form_of(Primitives p) {
   return p == Primitives::quads    ? SideForm::triangles
@@ -165,7 +165,8 @@ bool update_sides(CasterVolumes& v, const GpuMesh& m, std::uint64_t mesh_version
   // The sum holds for sure; where it is too much for a stencil, grids say better, finer ones best.
   const LayerItems items =
       v.layers > kFewLayers ? layer_items(m.parts, v.light_side, v.casting) : LayerItems{};
-  for (int cells = kLayerCells; v.layers > kFewLayers && cells <= kFinestLayerCells; cells *= 2) {
+  for (int cells = kCoarsestLayerCells; v.layers > kFewLayers && cells <= kFinestLayerCells;
+       cells *= 2) {
     v.layers = std::min(v.layers, layer_bound(m.mesh, items, light, cells));
     if (v.layers <= kWrapLayers) break;
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -87,26 +88,41 @@ Texture2D upload_texture(const Texture& t) {
   return out;
 }
 
-// Receiving triangles by material, each material's in their own order.
-void sort_by_material(GpuMesh& m) {
+// Receiving triangles, those of solid parts first, then by material, each material's in their own
+// order.
+void sort_drawn(GpuMesh& m) {
   m.drawn.clear();
   for (std::uint32_t t = 0; t < m.mesh.triangles.size(); ++t) {
     if (m.receives[t] != 0) m.drawn.push_back(t);
   }
   const std::vector<std::uint32_t>& of = m.appearance.material_of;
   const auto material = [&](std::uint32_t t) { return of.empty() ? kNoMaterial : of[t]; };
-  std::stable_sort(m.drawn.begin(), m.drawn.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return material(a) < material(b); });
+  const auto solid = [&](std::uint32_t t) {
+    const std::uint32_t p = m.parts.part_of[t];
+    return p != kNoPart && m.part_seen[p] != 0 && m.parts.parts[p].winding > 0;
+  };
+  std::stable_sort(m.drawn.begin(), m.drawn.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return std::pair(!solid(a), material(a)) < std::pair(!solid(b), material(b));
+  });
   m.materials.clear();
+  m.solid_count = 0;
+  std::vector<std::uint32_t> indices;
   for (std::size_t i = 0; i < m.drawn.size(); ++i) {
-    const std::uint32_t number = material(m.drawn[i]);
-    if (i == 0 || material(m.drawn[i - 1]) != number) {
+    const std::uint32_t t = m.drawn[i], number = material(t);
+    if (i == 0 || material(m.drawn[i - 1]) != number || solid(m.drawn[i - 1]) != solid(t)) {
       m.materials.push_back(
           {number == kNoMaterial ? GpuMaterial{} : gpu_material(m.appearance.materials[number]),
-           static_cast<GLint>(3 * i), 0});
+           solid(t), static_cast<GLint>(3 * i), 0});
     }
     m.materials.back().count += 3;
+    m.solid_count += solid(t) ? 3 : 0;
+    for (const std::uint32_t v : m.mesh.triangles[t]) indices.push_back(2 * v);
   }
+  m.surface_count = static_cast<GLsizei>(indices.size());
+  glBindVertexArray(m.surface.id());
+  upload(m.surface_indices, GL_ELEMENT_ARRAY_BUFFER, indices.data(),
+         indices.size() * sizeof(std::uint32_t));
+  glBindVertexArray(0);
 }
 
 void find_boxes(GpuMesh& m) {
@@ -151,29 +167,22 @@ GpuMesh make_gpu_mesh(const TriMesh& mesh, std::vector<std::uint8_t> casts,
   m.receives.resize(mesh.triangles.size(), 1);
   m.edges = build_edge_table(m.mesh, m.casts);
   find_parts(m);
-  std::vector<std::uint32_t> surface;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (m.receives[t] == 0) continue;
-    for (const std::uint32_t v : mesh.triangles[t]) surface.push_back(2 * v);
-    if (m.casts[t] == 0) m.only_receive.push_back(t);
+    if (m.receives[t] != 0 && m.casts[t] == 0) m.only_receive.push_back(t);
   }
-  m.surface_count = static_cast<GLsizei>(surface.size());
   if (look != nullptr) {
     for (const Texture& texture : look->textures) m.textures.push_back(upload_texture(texture));
     m.appearance = *look;
     m.appearance.textures.clear();
     m.smooth = !look->normals.empty();
   }
-  sort_by_material(m);
-
   m.doubled = Buffer::make();
   m.corners = Buffer::make();
   m.surface_indices = Buffer::make();
-  upload_vertices(m);
   m.surface = VertexArray::make();
+  sort_drawn(m);
+  upload_vertices(m);
   glBindVertexArray(m.surface.id());
-  upload(m.surface_indices, GL_ELEMENT_ARRAY_BUFFER, surface.data(),
-         surface.size() * sizeof(std::uint32_t));
   glBindBuffer(GL_ARRAY_BUFFER, m.doubled.id());
   glEnableVertexAttribArray(kVertex);
   glVertexAttribPointer(kVertex, 4, GL_FLOAT, GL_FALSE, 0, nullptr);
@@ -196,6 +205,7 @@ void move_vertices(GpuMesh& m, std::span<const Vec3> positions) {
   for (std::size_t i = 0; i < m.mesh.positions.size(); ++i)
     m.mesh.positions[i] = rounded(positions[i]);
   find_parts(m);
+  sort_drawn(m);
   upload_vertices(m);
 }
 

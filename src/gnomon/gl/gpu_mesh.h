@@ -24,6 +24,8 @@ struct GpuMaterial {
 
 struct MaterialRange {
   GpuMaterial material;
+  bool solid =
+      false;        // of convex parts, wound outwards: their back faces are never seen from outside
   GLint first = 0;  // corners
   GLsizei count = 0;
 };
@@ -43,6 +45,7 @@ struct GpuMesh {
   VertexArray surface;        // doubled, surface_indices
   VertexArray shaded;         // corners
   GLsizei surface_count = 0;  // corners of receiving triangles
+  GLsizei solid_count = 0;    // of these, the first ones: of convex parts, wound outwards
   // Receiving triangles that do not cast, by their light side, are found per light.
   std::vector<std::uint32_t> only_receive;
 

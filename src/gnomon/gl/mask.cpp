@@ -1,6 +1,7 @@
 // The shadow mask of one light, in the stencil, the alpha channel or the screen.
 // Based on: Everitt and Kilgard 2002, section 3.3; Roettger, Irion and Ertl 2002, sections 4.2-4.4.
 #include <array>
+#include <utility>
 
 #include <glm/matrix.hpp>
 
@@ -298,6 +299,7 @@ void count_group(const Frame& frame, const LightPlan& plan, const std::vector<Ba
 }
 
 void clear_stencil(const Frame& frame, int value) {
+  if (std::exchange(frame.stencil, std::nullopt) == value) return;
   Pass p;
   p.depth_test = false;
   apply(p, frame);
@@ -585,6 +587,20 @@ void clear_colours(const Frame& frame, const Method& m) {
 
 }  // namespace
 
+void draw_lines(const VertexArray& array, const Buffer& buffer, const Buffer& vertices,
+                const std::vector<std::uint32_t>& indices) {
+  glBindVertexArray(array.id());
+  glBindBuffer(GL_ARRAY_BUFFER, vertices.id());
+  glEnableVertexAttribArray(kVertex);
+  glVertexAttribPointer(kVertex, 4, GL_FLOAT, GL_FALSE, 0, nullptr);
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffer.id());
+  glBufferData(GL_ELEMENT_ARRAY_BUFFER,
+               static_cast<GLsizeiptr>(indices.size() * sizeof(std::uint32_t)), indices.data(),
+               GL_STREAM_DRAW);
+  glDrawElements(GL_LINES, static_cast<GLsizei>(indices.size()), GL_UNSIGNED_INT, nullptr);
+  glBindVertexArray(0);
+}
+
 void draw_where_lit(Pass& p, const LitTest& lit, bool once) {
   p.stencil_test = true;
   p.stencil_func = lit.func;
@@ -621,15 +637,51 @@ Result<LitTest> draw_light_mask(const Frame& frame, const LightPlan& plan, const
 void draw_volume_faces(const Frame& frame, const LightPlan& plan, const Pass& pass,
                        const glm::vec4& colour) {
   const Prepared prepared = prepare(frame, plan);
+  apply(pass, frame);
   for (const std::vector<Batch>& batches : batches_of(prepared)) {
     for (const Batch& b : batches) {
-      apply(pass, frame);
       use_volumes(frame, plan, *b.of);
-      set(frame.state->programs.volume[static_cast<std::size_t>(plan.method.extrusion)].id(),
-          "u_colour", colour);
-      draw_lists(frame, plan.method, b.ranges, false, false, false, false);
-      draw_lists(frame, plan.method, b.ranges, false, false, true, false);
+      GLuint program =
+          frame.state->programs.volume[static_cast<std::size_t>(plan.method.extrusion)].id();
+      if (const auto& inside = frame.camera->keep_inside) {
+        program = frame.state->programs.volume_inside.id();
+        glUseProgram(program);
+        set(program, "u_clip", frame.clip_of(*b.of->instance));
+        set(program, "u_project", b.of->plan->project);
+        set(program, "u_inside", glm::mat4(*inside * b.of->instance->to_scene));
+      }
+      set(program, "u_colour", colour);
+      for (const bool turned : {false, true})
+        draw_lists(frame, plan.method, b.ranges, true, false, turned, false);
     }
+  }
+}
+
+void draw_silhouettes(const Frame& frame, const LightPlan& plan, const Pass& pass,
+                      const glm::vec4& colour) {
+  const Prepared prepared = prepare(frame, plan);
+  apply(pass, frame);
+  const std::optional<glm::dmat4>& inside = frame.camera->keep_inside;
+  const GLuint program =
+      inside ? frame.state->programs.flat_inside.id() : frame.state->programs.flat.id();
+  glUseProgram(program);
+  set(program, "u_colour", colour);
+  const VertexArray array = VertexArray::make();
+  const Buffer buffer = Buffer::make();
+  for (const InstanceVolumes& v : prepared.all) {
+    Silhouette edges;
+    for (std::uint32_t p = 0; p < v.plan->parts.size(); ++p) {
+      const EdgesOfParts& of = v.mesh->part_edges;
+      find_part_silhouette(edges, v.mesh->edges,
+                           std::span(of.edge).subspan(of.first[p], of.first[p + 1] - of.first[p]),
+                           v.mesh->parts.part_of, p, v.volumes->light_side,
+                           v.plan->parts[p].casting);
+    }
+    std::vector<std::uint32_t> indices;
+    for (const SilhouetteEdge& e : edges) indices.insert(indices.end(), {2 * e.a, 2 * e.b});
+    set(program, "u_clip", frame.clip_of(*v.instance));
+    if (inside) set(program, "u_inside", glm::mat4(*inside * v.instance->to_scene));
+    draw_lines(array, buffer, v.mesh->doubled, indices);
   }
 }
 

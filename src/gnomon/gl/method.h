@@ -34,10 +34,12 @@ enum class Extrusion : std::uint8_t { cpu, shader, blend, blend_large };
 enum class Reach : std::uint8_t { automatic, infinite, bounded };
 enum class Primitives : std::uint8_t { quads, strips, fans };
 
-// What a shadow is in the picture. lights: each light adds its part where it is not shadowed; the
-// others are the first paper's for one light: black; ambient: and an ambient term added;
-// attenuated: the lit scene at half its brightness.
-enum class Shadows : std::uint8_t { lights, black, ambient, attenuated };
+// What becomes of the mask. lights: each light adds its part where it is not shadowed (Everitt and
+// Kilgard, 3.3). restored: one light is drawn with everything else at once, and where it is
+// shadowed the picture without it is put back: the same, with less to blend. The others are the
+// first paper's for one light: black; ambient: and an ambient term added; attenuated: the lit scene
+// at half its brightness. automatic: restored for one light in the stencil, else lights.
+enum class Shadows : std::uint8_t { automatic, lights, restored, black, ambient, attenuated };
 
 struct Method {
   MaskIn mask = MaskIn::stencil;
@@ -50,7 +52,7 @@ struct Method {
   Extrusion extrusion = Extrusion::shader;
   Reach reach = Reach::automatic;
   Primitives primitives = Primitives::quads;
-  Shadows shadows = Shadows::lights;
+  Shadows shadows = Shadows::automatic;
   double mask_scale = 1;  // size of the mask over that of the picture, 0 < scale <= 1
   int samples = 1;        // a pixel
   // Alpha and screen masks in floats of 16 or 32 bits, whose powers of two count without a clamp;

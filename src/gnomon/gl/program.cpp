@@ -90,6 +90,9 @@ Result<Programs> compile_programs() {
       {&p.volume[1], "volume, extruded", kVolumeVertex, kColourFragment, "#define SHADER\n"},
       {&p.volume[2], "volume, blended", kVolumeVertex, kColourFragment, "#define BLEND\n"},
       {&p.volume[3], "volume, blended", kVolumeVertex, kColourFragment, "#define BLEND\n"},
+      {&p.volume_inside, "volume, clipped", kVolumeVertex, kColourFragment,
+       "#define SHADER\n#define INSIDE\n"},
+      {&p.flat_inside, "flat, clipped", kFlatVertex, kColourFragment, "#define INSIDE\n"},
       {&p.near_light, "near plane from the light", kNearLightVertex, kNearLightFragment, ""},
       {&p.flat, "flat", kFlatVertex, kColourFragment, ""},
       {&p.rectangle, "rectangle", kRectangleVertex, kColourFragment, ""},
@@ -108,9 +111,10 @@ Result<Programs> compile_programs() {
 Result<GLuint> surface_program(Programs& programs, unsigned variant) {
   ProgramHandle& program = programs.surface[variant];
   if (!program) {
-    constexpr const char* kNames[] = {"LIT", "TEXTURED", "SMOOTH", "SPECULAR", "FADING", "MASKED"};
+    constexpr const char* kNames[] = {"LIT",    "TEXTURED", "SMOOTH", "SPECULAR",
+                                      "FADING", "MASKED",   "INSIDE"};
     std::string defines;
-    for (int i = 0; i < 6; ++i) {
+    for (int i = 0; i < 7; ++i) {
       if ((variant >> i & 1u) != 0) defines += std::string("#define ") + kNames[i] + "\n";
     }
     Result<ProgramHandle> made =

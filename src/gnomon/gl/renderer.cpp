@@ -34,7 +34,8 @@ void clear(const Frame& frame, const Target& target, const Vec3& background) {
   glClearColor(static_cast<float>(background.x), static_cast<float>(background.y),
                static_cast<float>(background.z), 0.0f);
   glClearDepthf(1.0f);
-  glClearStencil(0);
+  glClearStencil(kWrapMiddle);  // where the first light's count most often begins
+  if (target.format.stencil) frame.stencil = kWrapMiddle;
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT |
           (target.format.stencil ? GL_STENCIL_BUFFER_BIT : 0));
 }
@@ -371,7 +372,20 @@ Result<FrameStats> Renderer::draw(const Camera& camera, std::span<const LightSou
   clear(frame, picture, options.background);
   frame.scissor = visible_rectangle(frame);
   Result<bool> drawn = true;
-  if (wanted.shadows == Shadows::lights || lights.empty()) {
+  const Shadows shadows = plans.empty() ? Shadows::lights : plans.front().method.shadows;
+  if (shadows == Shadows::restored) {
+    Lighting all;
+    all.light = &lights.front();
+    all.ambient = options.ambient;
+    all.emission = true;
+    draw_lit(frame, first_pass(true), all);
+    const Result<LitTest> lit = draw_light_mask(frame, plans.front(), &picture);
+    if (!lit) return lit.error();
+    Pass restore = colour_pass(GL_EQUAL);
+    draw_where_shadowed(restore, lit.value());
+    all.light = nullptr;
+    draw_lit(frame, restore, all);
+  } else if (shadows == Shadows::lights) {
     Lighting ambient;
     ambient.ambient = options.ambient;
     ambient.emission = true;
@@ -382,15 +396,9 @@ Result<FrameStats> Renderer::draw(const Camera& camera, std::span<const LightSou
   }
   if (!drawn) return drawn.error();
   if (state_->failure) return *std::exchange(state_->failure, std::nullopt);
-  if (options.show == Show::volumes) {
-    bind(picture);
-    Pass p = colour_pass(GL_LESS);
-    p.blend = true;
-    p.source = GL_SRC_ALPHA;
-    p.destination = GL_ONE_MINUS_SRC_ALPHA;
-    for (const LightPlan& plan : plans)
-      draw_volume_faces(frame, plan, p, glm::vec4(1.0f, 0.85f, 0.1f, 0.12f));
-  }
+  bind(picture);
+  drawn = draw_overlay(frame, lights, plans, options.overlay, options.background);
+  if (!drawn) return drawn.error();
   return counted;
 }
 

@@ -1,4 +1,7 @@
 // Surfaces and rectangles.
+#include <cstdint>
+
+#include <glm/common.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
@@ -7,36 +10,84 @@
 namespace gnomon::gl {
 namespace {
 
-void draw_surfaces(const Frame& frame, GLuint program, const glm::vec4& colour) {
-  glUseProgram(program);
-  set(program, "u_colour", colour);
-  for (const InstanceSlot& instance : frame.state->instances) {
-    if (!instance.alive) continue;
-    const GpuMesh& mesh = frame.state->meshes[instance.mesh].gpu;
-    if (mesh.surface_count == 0) continue;
-    set(program, "u_clip", frame.clip_of(instance));
-    glBindVertexArray(mesh.surface.id());
-    glDrawElements(GL_TRIANGLES, mesh.surface_count, GL_UNSIGNED_INT, nullptr);
+// Back faces of solid parts are left out where no such part may have the near rectangle inside.
+bool culls(const Frame& frame, const InstanceSlot& instance, const GpuMesh& mesh) {
+  if (mesh.solid_count == 0) return false;
+  const glm::dmat4 to_mesh = glm::inverse(instance.to_scene);
+  Vec3 lo(to_mesh * point(frame.camera->near_rectangle[0])), hi = lo;
+  for (const Vec3& corner : frame.camera->near_rectangle) {
+    lo = glm::min(lo, Vec3(to_mesh * point(corner)));
+    hi = glm::max(hi, Vec3(to_mesh * point(corner)));
   }
-  ++frame.stats->passes;
+  for (std::size_t p = 0; p < mesh.parts.parts.size(); ++p) {
+    const Part& part = mesh.parts.parts[p];
+    if (part.winding > 0 && mesh.part_seen[p] != 0 && lo.x <= part.hi.x && part.lo.x <= hi.x &&
+        lo.y <= part.hi.y && part.lo.y <= hi.y && lo.z <= part.hi.z && part.lo.z <= hi.z) {
+      return false;
+    }
+  }
+  return true;
 }
+
+// Sets the pass again where another culling is wanted than the last time.
+class Culling {
+ public:
+  Culling(const Frame& frame, const Pass& pass) : frame_(frame), pass_(pass) {
+    apply(pass_, frame_);
+  }
+  void set(bool cull) {
+    if (cull == on_) return;
+    on_ = cull;
+    Pass p = pass_;
+    if (cull) p.cull = GL_BACK;
+    apply(p, frame_);
+  }
+
+ private:
+  const Frame& frame_;
+  const Pass& pass_;
+  bool on_ = false;
+};
 
 }  // namespace
 
 void draw_depth(const Frame& frame, const Pass& pass) { draw_flat(frame, pass, glm::vec4(0)); }
 
 void draw_flat(const Frame& frame, const Pass& pass, const glm::vec4& colour) {
-  apply(pass, frame);
-  draw_surfaces(frame, frame.state->programs.flat.id(), colour);
+  Culling culling(frame, pass);
+  const std::optional<glm::dmat4>& inside = frame.camera->keep_inside;
+  const GLuint program =
+      inside ? frame.state->programs.flat_inside.id() : frame.state->programs.flat.id();
+  glUseProgram(program);
+  set(program, "u_colour", colour);
+  for (const InstanceSlot& instance : frame.state->instances) {
+    if (!instance.alive) continue;
+    const GpuMesh& mesh = frame.state->meshes[instance.mesh].gpu;
+    if (mesh.surface_count == 0) continue;
+    const GLsizei solid = culls(frame, instance, mesh) ? mesh.solid_count : 0;
+    set(program, "u_clip", frame.clip_of(instance));
+    if (inside) set(program, "u_inside", glm::mat4(*inside * instance.to_scene));
+    glBindVertexArray(mesh.surface.id());
+    for (const bool cull : {true, false}) {
+      const GLsizei first = cull ? 0 : solid, count = cull ? solid : mesh.surface_count - solid;
+      if (count == 0) continue;
+      culling.set(cull);
+      glDrawElements(GL_TRIANGLES, count, GL_UNSIGNED_INT,
+                     reinterpret_cast<const void*>(static_cast<std::uintptr_t>(first) *
+                                                   sizeof(std::uint32_t)));
+    }
+  }
+  ++frame.stats->passes;
 }
 
 void draw_lit(const Frame& frame, const Pass& pass, const Lighting& l) {
-  apply(pass, frame);
+  Culling culling(frame, pass);
   const LightSource none{{0, 0, 1, 0}, {0, 0, 0}, {1, 0, 0}, 0};
   const LightSource& light = l.light != nullptr ? *l.light : none;
   Vec4 towards = light.light;
   if (towards.w != 0) towards /= towards.w;
-  unsigned common = 0;
+  const std::optional<glm::dmat4>& inside = frame.camera->keep_inside;
+  unsigned common = inside ? kInside : 0u;
   if (l.light != nullptr) {
     common |= kLit;
     if (towards.w != 0 && (light.attenuation != Vec3(1, 0, 0) || light.radius > 0))
@@ -47,6 +98,7 @@ void draw_lit(const Frame& frame, const Pass& pass, const Lighting& l) {
   for (const InstanceSlot& instance : frame.state->instances) {
     if (!instance.alive) continue;
     const GpuMesh& mesh = frame.state->meshes[instance.mesh].gpu;
+    const bool cull = culls(frame, instance, mesh);
     glBindVertexArray(mesh.shaded.id());
     GLuint of_instance = 0;
     for (const MaterialRange& range : mesh.materials) {
@@ -84,6 +136,7 @@ void draw_lit(const Frame& frame, const Pass& pass, const Lighting& l) {
       if (of_instance != program) {
         of_instance = program;
         set(program, "u_clip", frame.clip_of(instance));
+        if (inside) set(program, "u_inside", glm::mat4(*inside * instance.to_scene));
         set(program, "u_model", glm::mat4(instance.to_scene));
         set(program, "u_normal_matrix",
             glm::mat3(glm::transpose(glm::inverse(glm::dmat3(instance.to_scene)))));
@@ -103,6 +156,7 @@ void draw_lit(const Frame& frame, const Pass& pass, const Lighting& l) {
         glActiveTexture(GL_TEXTURE1);
         glBindTexture(GL_TEXTURE_2D, mesh.textures[*look.normal_texture].id());
       }
+      culling.set(cull && range.solid);
       glDrawArrays(GL_TRIANGLES, range.first, range.count);
     }
   }
