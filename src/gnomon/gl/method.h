@@ -60,6 +60,9 @@ struct Method {
   // Alpha and screen masks in floats of 16 or 32 bits, whose powers of two count without a clamp;
   // 0: in 8 bits. Decided, not asked for: casters that a view ray can enter twice need it.
   int float_bits = 0;
+  // For demonstrations: counts z-pass, and along a parallel view's light, where decide() would
+  // refuse it since the mask is wrong there. What cannot be drawn at all is refused all the same.
+  bool unchecked = false;
   bool keep_double_blending = false;  // KEEP instead of INCR where a light is added (stencil): the
                                       // paper's 3.4; only where no two fragments share a depth
 };
@@ -69,9 +72,10 @@ struct Situation {
   bool parallel_view = false;
   bool light_along_view = false;  // a parallel view exactly along a directional light
   bool directional_light = false;
-  bool all_convex = true;      // every caster is closed and convex
-  bool near_shaded = false;    // some caster may shade the near rectangle (near clip volume)
-  bool target_stencil = true;  // the framebuffer can have a stencil attachment
+  bool light_in_near_plane = false;  // to rounding: seen from it the plane is a line
+  bool all_convex = true;            // every caster is closed and convex
+  bool near_shaded = false;          // some caster may shade the near rectangle (near clip volume)
+  bool target_stencil = true;        // the framebuffer can have a stencil attachment
   bool target_alpha = true;
   bool infinite_view = true;  // the view's far plane can be at infinity
   bool can_bound = false;     // there is a plane for Reach::bounded
