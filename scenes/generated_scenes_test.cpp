@@ -9,6 +9,7 @@
 #include <scenes/box_city.h>
 #include <scenes/generated_city.h>
 #include <scenes/generated_sphere.h>
+#include <scenes/paper_scenes.h>
 
 namespace gnomon::scenes {
 namespace {
@@ -132,6 +133,25 @@ TEST(GeneratedSphere, IsClosedAndHasTheSpheresVolume) {
   EXPECT_EQ(
       open_edges(generated_sphere(4, 1.0, Vec3(0.0), 0.3), std::vector<std::uint8_t>(20u << 8, 1)),
       0u);
+}
+
+TEST(PaperScenes, AreClosedBodiesWoundOutwardsOverFloorsThatOnlyReceive) {
+  for (const PaperScene& s : {convex_bodies(), concave_bodies(), figures_in_a_room()}) {
+    std::vector<std::uint8_t> bodies(s.scene.mesh.triangles.size());
+    for (std::uint32_t t = 0; t < bodies.size(); ++t) bodies[t] = casts(s.scene, t) ? 1 : 0;
+    EXPECT_EQ(open_edges(s.scene, bodies), 0u) << s.name;
+    for (std::uint32_t b = 0; b < s.scene.surfaces.size(); ++b) {
+      if (!s.scene.surfaces[b].casts) continue;
+      std::vector<std::uint8_t> one(bodies.size());
+      for (std::size_t t = 0; t < one.size(); ++t) one[t] = s.scene.surface_of[t] == b ? 1 : 0;
+      EXPECT_GT(volume(s.scene, one), 0.01) << s.name << " " << s.scene.surfaces[b].object;
+    }
+  }
+}
+
+TEST(PaperScenes, AreTheSameEachTime) {
+  EXPECT_EQ(convex_bodies().scene.mesh.positions, convex_bodies().scene.mesh.positions);
+  EXPECT_EQ(lamps_of_the_room(12, 0.5).size(), 12u);
 }
 
 }  // namespace

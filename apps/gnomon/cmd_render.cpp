@@ -1,4 +1,5 @@
 // gnomon render: a picture by OpenGL, by any method of the papers.
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <memory>
@@ -25,7 +26,8 @@ struct Options {
   gl::FrameOptions frame;
   std::string api = "gl";
   std::vector<std::string> lacking;
-  std::string show = "picture";
+  std::vector<std::string> show;
+  std::string observer, observer_target;
   std::string output = "gnomon.png";
   double near_plane = 0;
   bool check = false;
@@ -79,18 +81,46 @@ void run(const Options& o) {
   const bool infinite = !is_parallel(view) && o.frame.method.far_plane != gl::FarPlane::clamp;
   gl::DepthRange range = gl::depth_range(scene, view, infinite);
   if (o.near_plane > 0) range.near_plane = o.near_plane;
-  const gl::Camera camera = gl::camera_of(view, range);
+  const gl::Camera first = gl::camera_of(view, range);
 
   gl::Renderer renderer = take(gl::Renderer::create(capabilities));
   renderer.add_scene(scene);
   gl::FrameStats stats;
   const auto begin = std::chrono::steady_clock::now();
   Picture picture;
-  if (o.show == "mask") {
-    picture = picture_of(
-        take(renderer.mask(camera, lights.lights.front().light, o.frame.method, &stats)));
+  gl::FrameOptions options = o.frame;
+  const auto shows = [&](const char* what) {
+    return std::find(o.show.begin(), o.show.end(), what) != o.show.end();
+  };
+  options.overlay.volumes = shows("volumes");
+  options.overlay.silhouettes = shows("silhouettes");
+  options.overlay.edges = shows("wireframe");
+  options.overlay.lights = shows("lights");
+  options.overlay.counts = shows("counts");
+  gl::Camera camera = first;
+  if (!o.observer.empty()) {
+    ViewOptions second = o.view;
+    second.eye = o.observer;
+    second.target = o.observer_target;
+    second.ortho_height = 0;
+    const View from = make_camera(scene, second, 0, 1);
+    camera = gl::camera_of(from, gl::depth_range(scene, from, infinite));
+    options.overlay.frustum = first;
+    if (shows("clipped")) camera.keep_inside = first.clip;
+  } else if (shows("clip-space")) {
+    // From the left, above and behind the eye's side of the cube.
+    const View from =
+        perspective_view({-2.2, 1.7, 4.4}, {0, -0.1, 0}, {0, 1, 0}, 0.62, view.width, view.height);
+    camera = gl::clip_space_camera(first, from, {0.5});
+    options.overlay.frustum = first;
+    options.method.count = gl::Count::near_cap;
+    options.method.reach = gl::Reach::infinite;
+  }
+  if (shows("mask")) {
+    picture =
+        picture_of(take(renderer.mask(first, lights.lights.front().light, o.frame.method, &stats)));
   } else {
-    picture = picture_of(take(renderer.render(camera, lights.lights, o.frame, &stats)));
+    picture = picture_of(take(renderer.render(camera, lights.lights, options, &stats)));
   }
   const double ms =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
@@ -99,8 +129,7 @@ void run(const Options& o) {
   Warnings warnings = scene.warnings;
   append(warnings, lights.warnings);
   if (o.check) {
-    const ShadowMask ours =
-        take(renderer.mask(camera, lights.lights.front().light, o.frame.method));
+    const ShadowMask ours = take(renderer.mask(first, lights.lights.front().light, o.frame.method));
     const ShadowMask exact = cast_shadows(scene, lights.lights.front().light, view);
     std::size_t differ = 0;
     for (std::size_t k = 0; k < exact.state.size(); ++k) differ += ours.state[k] != exact.state[k];
@@ -147,18 +176,28 @@ void add_render(CLI::App& app) {
       ->group("OpenGL");
   command->add_flag("--check", o.check, "Compare the mask of the first light with the exact one")
       ->group("Output");
-  command->add_option("--show", o.show, "picture, mask, volumes")
-      ->check(CLI::IsMember({"picture", "mask", "volumes"}))
-      ->capture_default_str()
+  const std::vector<std::string> shows = {"picture",     "mask",       "volumes",
+                                          "silhouettes", "counts",     "lights",
+                                          "wireframe",   "clip-space", "clipped"};
+  command
+      ->add_option("--show", o.show,
+                   "Any of picture, mask, volumes, silhouettes, counts, lights, wireframe, "
+                   "clip-space (the scene in the camera's clip space), clipped (with --observer: "
+                   "nothing outside the camera's frustum); separated by commas")
+      ->delimiter(',')
+      ->check(CLI::IsMember(shows))
       ->group("Output");
+  command
+      ->add_option("--observer", o.observer,
+                   "X,Y,Z: a second camera there shows the scene and the first one's frustum")
+      ->group("View");
+  command->add_option("--observer-target", o.observer_target, "X,Y,Z that it looks at")
+      ->group("View");
   command->add_option("-o,--output", o.output, "The PNG file")
       ->capture_default_str()
       ->group("Output");
   add_common(*command, o.common);
-  command->callback([options] {
-    if (options->show == "volumes") options->frame.show = gl::Show::volumes;
-    run(*options);
-  });
+  command->callback([options] { run(*options); });
 }
 
 }  // namespace gnomon::app

@@ -41,6 +41,7 @@ void add_profile(CLI::App& app);
 void add_shadow(CLI::App& app);
 void add_render(CLI::App& app);
 void add_methods(CLI::App& app);
+void add_bench(CLI::App& app);
 void add_convert(CLI::App& app);
 void add_inspect(CLI::App& app);
 void add_sun(CLI::App& app);

@@ -116,6 +116,7 @@ int main(int argc, char** argv) {
 #ifdef GNOMON_HAVE_GL
   gnomon::app::add_render(app);
   gnomon::app::add_methods(app);
+  gnomon::app::add_bench(app);
 #endif
 #ifdef GNOMON_HAVE_TRACE
   gnomon::app::add_verify(app);

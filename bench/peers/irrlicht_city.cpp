@@ -22,21 +22,17 @@ class IIrrXMLReader;
 #include <fstream>
 #include <map>
 #include <memory>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "../report.h"
-#include "city_check.h"
+#include "city_frames.h"
 #include "city_view.h"
 
 namespace gnomon::bench {
 namespace {
 
 using irr::core::vector3df;
-
-constexpr int kMovedFrame = 7;  // of the moving lamp's frames, the one whose picture is checked
 
 struct Options {
   std::string boxes, ground;
@@ -137,14 +133,14 @@ class City {
     kept_->setVisible(shadows == Shadows::kept);
   }
 
-  // Milliseconds from the empty to the whole picture; that it is shown is not timed.
-  double frame(const Vec3& lamp) {
+  // From the empty to the whole picture; that it is shown is not timed.
+  FrameTime frame(const Vec3& lamp) {
     device_->run();
-    const Watch watch;
+    const FrameWatch watch;
     draw_frame(lamp);
-    const double ms = 1000 * watch.seconds();
+    const FrameTime time = watch.read();
     driver_->endScene();
-    return ms;
+    return time;
   }
 
   // The picture, as it is before it is shown (what the window keeps is up to the X server): three
@@ -298,33 +294,15 @@ class City {
   irr::scene::ISceneNode *live_ = nullptr, *kept_ = nullptr;
 };
 
-struct Case {
-  std::string name;
-  City::Shadows shadows;
-  bool moving;
-  std::vector<double> ms{};
-};
-
-std::vector<Case> measure(City& city, const Options& o) {
-  std::vector<Case> cases = {{"no shadows", City::Shadows::none, false},
-                             {"lamp still, volumes kept", City::Shadows::kept, false},
-                             {"lamp still", City::Shadows::live, false},
-                             {"lamp moving", City::Shadows::live, true}};
-  constexpr int kWarmUp = 3;                         // frames at the beginning of each turn
-  for (int round = -1; round < o.rounds; ++round) {  // round -1 warms up
-    for (Case& c : cases) {
-      city.show(c.shadows);
-      for (int k = -kWarmUp; k < o.frames; ++k) {
-        const double ms = city.frame(c.moving ? moving_lamp(round * o.frames + k) : kLamp);
-        if (round >= 0 && k >= 0) c.ms.push_back(ms);
-      }
-    }
-  }
+std::vector<FrameCase> measure(City& city, const Options& o) {
+  const auto show = [&](City::Shadows shadows) { return [&city, shadows] { city.show(shadows); }; };
+  const auto still = [](int) { return kLamp; };
+  std::vector<FrameCase> cases = {{"no shadows", show(City::Shadows::none), still},
+                                  {"lamp still, volumes kept", show(City::Shadows::kept), still},
+                                  {"lamp still", show(City::Shadows::live), still},
+                                  {"lamp moving", show(City::Shadows::live), moving_lamp}};
+  measure(cases, o.rounds, o.frames, [&](const Vec3& lamp) { return city.frame(lamp); });
   return cases;
-}
-
-nlohmann::ordered_json to_json(const CityCheck& c) {
-  return {{"samples", c.samples}, {"in_shadow", c.shadow}, {"wrong", c.wrong}};
 }
 
 int run(const Options& o) {
@@ -337,15 +315,13 @@ int run(const Options& o) {
     return check_city(city.picture(shadows, lamp), city.picture(City::Shadows::none, lamp), o.size,
                       lamp);
   };
-  const CityCheck still = check(City::Shadows::live, kLamp),
-                  kept = check(City::Shadows::kept, kLamp),
-                  moving = check(City::Shadows::live, moving_lamp(kMovedFrame));
-  const std::vector<Case> cases = measure(city, o);
+  const FrameChecks checks{check(City::Shadows::kept, kLamp), check(City::Shadows::live, kLamp),
+                           check(City::Shadows::live, moving_lamp(kMovedFrame))};
+  const std::vector<FrameCase> cases = measure(city, o);
 
   const std::string what =
       fmt::format("{}, {} x {} boxes a volume, {}", o.method, o.block, o.block,
                   o.infinity > 0 ? fmt::format("{} m long", o.infinity) : "as long as needed");
-  std::string row = fmt::format("| {} | Irrlicht {} | {} |", o.size, city.version(), what);
   nlohmann::ordered_json results = {
       {"program", "Irrlicht " + city.version()},
       {"gl_renderer", reinterpret_cast<const char*>(glGetString(GL_RENDERER))},
@@ -353,15 +329,10 @@ int run(const Options& o) {
       {"size", o.size},
       {"method", o.method},
       {"block", o.block},
-      {"infinity_m", o.infinity},
-      {"check", {{"still", to_json(still)}, {"kept", to_json(kept)}, {"moved", to_json(moving)}}}};
-  for (const Case& c : cases) {
-    const double mean = std::accumulate(c.ms.begin(), c.ms.end(), 0.0) / double(c.ms.size());
-    row += fmt::format(" {:.1f} ({:.1f}, {:.1f}) |", median(c.ms),
-                       *std::min_element(c.ms.begin(), c.ms.end()), mean);
-    results["ms"][c.name] = c.ms;
-  }
-  fmt::print("{} {}, {}, {} of {} |\n", row, kept.wrong, still.wrong, moving.wrong, still.samples);
+      {"infinity_m", o.infinity}};
+  add_json(results, cases, checks);
+  fmt::print("| {} | Irrlicht {} | {} |{}\n", o.size, city.version(), what,
+             to_columns(cases, checks));
   if (!o.json.empty()) {
     std::ofstream out(o.json);
     out << results.dump(1) << std::endl;
@@ -377,8 +348,7 @@ int main(int argc, char** argv) {
   gnomon::bench::Options o;
   CLI::App app{
       "The box city with Irrlicht's shadow volumes: rows of a Markdown table (picture's size, "
-      "lamp, median, least and mean "
-      "milliseconds per frame)"};
+      "median, least and processor's milliseconds per frame)"};
   app.add_option("BOXES", o.boxes, "OBJ with a group for each box")->required();
   app.add_option("GROUND", o.ground, "OBJ of the ground")->required();
   app.add_option("--size", o.size, "Pixels across and down")

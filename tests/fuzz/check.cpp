@@ -35,6 +35,29 @@ void check_indices(const Model& m) {
   }
 }
 
+void check_looks(const Model& m) {
+  if (!m.looks) return;
+  const ModelLooks& l = *m.looks;
+  require(l.material_of.size() <= m.polygons.size(), "no more materials than polygons");
+  require(l.uv.size() <= m.corners.size() && l.normals.size() <= m.corners.size(),
+          "no more looks than corners");
+  for (const std::uint32_t k : l.material_of) {
+    require(k == kNoMaterial || k < l.materials.size(), "a polygon's material is there");
+  }
+  for (const glm::vec2& uv : l.uv) {
+    require(std::isfinite(uv.x) && std::isfinite(uv.y), "texture coordinates are finite");
+  }
+  const auto is_texture = [&](int k) { return k >= -1 && k < static_cast<int>(l.textures.size()); };
+  for (const Material& k : l.materials) {
+    require(is_texture(k.base_texture) && is_texture(k.normal_texture) &&
+                is_texture(k.emissive_texture),
+            "a material's pictures are there");
+    require(k.opacity >= 0 && k.opacity <= 1 && k.shininess >= 0 && std::isfinite(k.shininess) &&
+                std::isfinite(k.base_colour.x + k.specular.x + k.emissive.x + k.normal_scale),
+            "a material's numbers are in range");
+  }
+}
+
 // False where load_scene refuses the model because of it.
 bool fits_exact_arithmetic(const Model& m) {
   bool fits = true;
@@ -108,6 +131,7 @@ void check_warnings(const Warnings& warnings) {
 
 void check_model(const Model& model) {
   check_indices(model);
+  check_looks(model);
   check_warnings(model.warnings);
   if (fits_exact_arithmetic(model) && model.corners.size() <= kMostCorners) {
     triangulate_and_weld(model);

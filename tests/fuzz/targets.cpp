@@ -5,9 +5,12 @@
 #include <gnomon/io/footprint_layer.h>
 #include <gnomon/io/gltf.h>
 #include <gnomon/io/ifc_place.h>
+#include <gnomon/io/key_frames.h>
+#include <gnomon/io/mtl.h>
 #include <gnomon/io/obj.h>
 #include <gnomon/io/off.h>
 #include <gnomon/io/ply.h>
+#include <gnomon/io/rig_weld.h>
 #include <gnomon/io/stl.h>
 #include <unistd.h>
 
@@ -65,12 +68,21 @@ void cityjson(std::string_view bytes) {
   if (!highest || highest.value().report.lods.empty()) return;
   const auto lowest = read_cityjson(bytes, path, highest.value().report.lods.front());
   check(lowest, path);
+  check(read_cityjson(bytes, path, "", {.appearance = true}), path);
 }
 
 void obj(std::string_view bytes) {
   const std::string path = "model.obj";
   format_of(path, bytes);
   check(read_obj(bytes, path, 'y', 1.0), path);
+  check(read_obj(bytes, path, 'z', 1.0, {.appearance = true}), path);
+  Model materials;
+  materials.report.path = path;
+  materials.looks.emplace();
+  ModelPictures pictures(materials);
+  MtlNames names;
+  read_mtl_text(bytes, "model.mtl", materials, pictures, names);
+  check_model(materials);
 }
 
 void footprints(std::string_view bytes) {
@@ -83,16 +95,45 @@ void footprints(std::string_view bytes) {
   check(read, file.path.string());
 }
 
+namespace {
+
+void gltf(std::string_view bytes, const std::string& path) {
+  check(read_gltf(bytes, path), path);
+  check(read_gltf(bytes, path, {.appearance = true, .time = 0.7}), path);
+  Rig rig;
+  const auto read = read_gltf(bytes, path, {.appearance = true, .rig = &rig});
+  check(read, path);
+  if (!read) return;
+  require(rig.points.size() == read.value().vertices.size(), "a vertex is a point of the rig");
+  const RigWeld weld = weld_rig(rig, read.value().vertices);
+  const auto vertex_of = keep_points(rig, weld);
+  require(vertex_of.size() == weld.positions.size(), "one point stays of each vertex");
+  const RigPose pose = rig.clip ? pose_at(rig.nodes, *rig.clip, 1e3) : pose_at_rest(rig.nodes);
+  for (const RigPart& part : rig.parts) {
+    require(posed(part, pose).points.size() == part.shape.points.size(), "points stay as many");
+  }
+}
+
+// Frames of an MD2; the first byte is none of it.
+void frames(std::string_view bytes, const std::string& path) {
+  const auto read = read_md2_frames(bytes, path);
+  if (!read) return check_message(read.error(), path);
+  for (std::size_t k = 0; k < read.value().names.size(); ++k) read.value().shapes(k, true);
+}
+
+}  // namespace
+
 void mesh(std::string_view bytes) {
   if (bytes.empty()) return;
   const int reader = static_cast<unsigned char>(bytes.front()) % 4;
   bytes.remove_prefix(1);
   const std::string path = "no-such-folder/model";  // nothing stands beside it
   format_of(path, bytes);
+  if (bytes.starts_with("IDP2")) return frames(bytes, path);
+  if (reader == 3) return gltf(bytes, path);
   check(reader == 0   ? read_stl(bytes, path, 'z', 0.001)
         : reader == 1 ? read_ply(bytes, path, 'z', 1.0)
-        : reader == 2 ? read_off(bytes, path, 'y', 1.0)
-                      : read_gltf(bytes, path),
+                      : read_off(bytes, path, 'y', 1.0),
         path);
 }
 

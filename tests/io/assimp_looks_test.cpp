@@ -103,6 +103,59 @@ TEST(AssimpLooks, NodesOfColladaMove) {
   EXPECT_EQ(model.value().mesh.positions[model.value().mesh.triangles[0][0]].x, 0);
 }
 
+// The triangle (0, 0, 0), (1, 0, 0), (0, 0, 1) on two joints: Foot at the origin, Top at (0, 0, 1)
+// on it, which moves to (0, 2, 1) in 2 s. The third vertex is Top's, the second half of each.
+std::string skinned() {
+  const std::string one = "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 ",
+                    down = "1 0 0 0 0 1 0 0 0 0 1 -1 0 0 0 1";
+  return R"(<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><unit name="m" meter="1"/><up_axis>Z_UP</up_axis></asset><library_animations><animation id="wave">)" +
+         source("in", "0 2", 2, 1, R"(<param name="TIME" type="float"/>)") +
+         source("out", "0 0 1 0 2 1", 2, 3, kXyz) +
+         R"(<source id="how"><Name_array id="howa" count="2">LINEAR LINEAR</Name_array>
+<technique_common><accessor source="#howa" count="2" stride="1"><param name="INTERPOLATION" type="name"/></accessor></technique_common></source>
+<sampler id="s"><input semantic="INPUT" source="#in"/><input semantic="OUTPUT" source="#out"/>
+<input semantic="INTERPOLATION" source="#how"/></sampler>
+<channel source="#s" target="Top/move"/></animation></library_animations>
+<library_geometries><geometry id="g" name="Flag"><mesh>)" +
+         source("p", "0 0 0 1 0 0 0 0 1", 3, 3, kXyz) +
+         R"(<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<polylist count="1"><input semantic="VERTEX" source="#v" offset="0"/><vcount>3</vcount><p>0 1 2</p></polylist>
+</mesh></geometry></library_geometries>
+<library_controllers><controller id="c"><skin source="#g">
+<bind_shape_matrix>1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1</bind_shape_matrix>
+<source id="j"><Name_array id="ja" count="2">Foot Top</Name_array><technique_common>
+<accessor source="#ja" count="2" stride="1"><param name="JOINT" type="name"/></accessor></technique_common></source>)" +
+         source("b", one + down, 2, 16, R"(<param name="TRANSFORM" type="float4x4"/>)") +
+         source("w", "1 0.5", 2, 1, R"(<param name="WEIGHT" type="float"/>)") +
+         R"(<joints><input semantic="JOINT" source="#j"/><input semantic="INV_BIND_MATRIX" source="#b"/></joints>
+<vertex_weights count="3"><input semantic="JOINT" source="#j" offset="0"/><input semantic="WEIGHT" source="#w" offset="1"/>
+<vcount>1 2 1</vcount><v>0 0 0 1 1 1 1 0</v></vertex_weights></skin></controller></library_controllers>
+<library_visual_scenes><visual_scene id="sc"><node id="Foot" name="Foot" sid="Foot" type="JOINT">
+<node id="Top" name="Top" sid="Top" type="JOINT"><translate sid="move">0 0 1</translate></node></node>
+<node id="n" name="Flag"><instance_controller url="#c"><skeleton>#Foot</skeleton></instance_controller></node>
+</visual_scene></library_visual_scenes><scene><instance_visual_scene url="#sc"/></scene></COLLADA>)";
+}
+
+TEST(AssimpLooks, BonesOfColladaBend) {
+  const Files files;
+  const auto path = files("t.dae", skinned());
+  LoadOptions options = without_ground();
+  options.time = 1.5;  // Top is at (0, 1.5, 1)
+  const Scene scene = load({path}, options).scene;
+  const std::vector<Vec3> wanted = {{0, 0, 0}, {1, 0.75, 0}, {0, 1.5, 1}};
+  ASSERT_EQ(scene.mesh.triangles.size(), 1u);
+  for (const Vec3& p : wanted) {
+    bool found = false;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Vec3 q = corner(scene, 0, c) + scene.frame.origin - p;
+      found = found || std::fabs(q.x) + std::fabs(q.y) + std::fabs(q.z) < 1e-6;
+    }
+    EXPECT_TRUE(found) << p.x << ' ' << p.y << ' ' << p.z;
+  }
+}
+
 TEST(AssimpLooks, Md2HasNormalsAndCoordinatesOfItsOwn) {
   const auto file = std::filesystem::path(GNOMON_DATA) / "animated/MD2/faerie.md2";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";

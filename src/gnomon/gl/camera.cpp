@@ -91,6 +91,16 @@ Camera camera_of(const View& v, const DepthRange& range) {
   return c;
 }
 
+Camera clip_space_camera(const Camera& first, const View& view, const DepthRange& range) {
+  Camera c = camera_of(view, range);
+  glm::dmat4 flip(1.0);
+  flip[2][2] = -1;
+  c.clip = c.clip * flip * first.clip;
+  c.keep_inside = first.clip;
+  complete(c);
+  return c;
+}
+
 Result<Camera> camera_of(const glm::dmat4& clip, int width, int height) {
   const double det = glm::determinant(clip);
   if (!(std::fabs(det) > 0)) {

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <limits>
+#include <optional>
 
 #include <glm/mat4x4.hpp>
 
@@ -21,6 +22,8 @@ struct Camera {
   std::array<Vec3, 4> near_rectangle{};  // lower left, lower right, upper right, upper left
   bool infinite = false;      // the far plane is at infinity; otherwise volumes need depth clamp
   int width = 0, height = 0;  // pixels
+  // To be looked at: nothing outside the frustum of another camera, whose matrix this is, is drawn.
+  std::optional<glm::dmat4> keep_inside{};
 };
 
 // Distances along the view axis, metres. Of a parallel view: coordinates along the direction of
@@ -36,6 +39,13 @@ Camera camera_of(const View& view, const DepthRange& range);
 // From an engine's own matrix (row 4 of a perspective one must not be that of a parallel one),
 // scene coordinates to clip space, depth -1..1. Error: the matrix is singular.
 Result<Camera> camera_of(const glm::dmat4& clip, int width, int height);
+
+// A look into the clip space of another camera, as in Everitt and Kilgard's Figures 2, 3 and 5:
+// surfaces stand where its matrix puts them, x to the right, y up, z (depth -1..1) away from it,
+// and `view` looks at them in these coordinates (x, y, -z: right-handed). What is outside its
+// frustum is left out. Shadows are right where the picture is seen from in front of the far plane
+// (z < 1) and counted from the near plane: Count::near_cap, Reach::infinite.
+Camera clip_space_camera(const Camera& first, const View& view, const DepthRange& range);
 
 // The largest near plane and the smallest far plane that cut nothing of the scene's receivers that
 // the view can see, with a margin of kRangeMargin of the distance for rounding to float.

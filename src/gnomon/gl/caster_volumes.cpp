@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <glm/geometric.hpp>
+
 #include <gnomon/gl/program.h>
 #include <gnomon/silhouette/light_sides.h>
 #include <gnomon/volume/layers.h>
@@ -110,13 +112,31 @@ std::vector<glm::vec4> extrude(const TriMesh& mesh, const glm::mat4& project) {
   return out;
 }
 
+bool grazes(const TriMesh& mesh, std::uint32_t triangle, const Light& light) {
+  const Triangle& t = mesh.triangles[triangle];
+  const Vec3 &a = mesh.positions[t[0]], &b = mesh.positions[t[1]], &c = mesh.positions[t[2]];
+  const Vec3 l(light), n = glm::cross(b - a, c - a);
+  double longest = 0;
+  for (const Vec3* p : {&a, &b, &c}) {
+    const Vec3 d = l - *p * light.w;
+    longest = std::max(longest, glm::dot(d, d));
+  }
+  const double height = glm::dot(n, l - a * light.w);
+  return height * height <= kGrazing * kGrazing * glm::dot(n, n) * longest;
+}
+
 }  // namespace
 
 bool update_sides(CasterVolumes& v, const GpuMesh& m, std::uint64_t mesh_version,
                   const Light& light, const std::vector<PartPlan>& plan) {
   const bool same_light = v.array && v.light == light && v.mesh_version == mesh_version;
   if (same_light && v.plan == plan) return false;
-  if (!same_light) v.light_side = light_sides(m.mesh, light);
+  if (!same_light) {
+    v.light_side = light_sides(m.mesh, light);
+    v.grazed = false;
+    for (std::uint32_t t = 0; t < m.mesh.triangles.size() && !v.grazed; ++t)
+      v.grazed = m.receives[t] != 0 && grazes(m.mesh, t, light);
+  }
   v.light = light;
   v.mesh_version = mesh_version;
   v.plan = plan;

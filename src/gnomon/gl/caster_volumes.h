@@ -23,6 +23,11 @@ namespace gnomon::gl {
 // so many layers.
 inline constexpr int kWrapMiddle = 32, kWrapLayers = 255 - kWrapMiddle;
 
+// The light grazes a triangle where the sine of the angle between its plane and the light, seen
+// from the corner where it is least, is no more than this. There sides start that lie in the plane
+// of what they fall on, to the precision of a depth buffer (docs/renderer.md).
+inline constexpr double kGrazing = 1.0 / 256;
+
 // How one part is drawn, for this light and camera.
 struct PartPlan {
   bool z_fail = false;
@@ -45,6 +50,7 @@ struct CasterVolumes {
   std::vector<std::uint8_t> region_z_fail;  // per region
 
   std::vector<std::int8_t> light_side;  // per triangle
+  bool grazed = false;  // the plane of some receiving triangle nearly holds the light
   std::vector<std::uint8_t> casting;    // per triangle: it counts
   LitRegions regions;                   // of parts by region
   int layers = 0;                       // no ray from the light crosses more casting triangles

@@ -1,6 +1,7 @@
 // The shadow mask of one light, in the stencil, the alpha channel or the screen.
 // Based on: Everitt and Kilgard 2002, section 3.3; Roettger, Irion and Ertl 2002, sections 4.2-4.4.
 #include <array>
+#include <utility>
 
 #include <glm/matrix.hpp>
 
@@ -18,6 +19,7 @@ struct InstanceVolumes {
   const LightPlan::OfInstance* plan;
   // Per volume, the vertices of its near caps in State::near_caps: first[k] .. first[k + 1].
   std::vector<std::uint32_t> near_caps;
+  bool offset = false;  // sides are moved away: the light grazes something of the scene
 };
 
 // Volumes drawn together.
@@ -55,16 +57,25 @@ void draw_range(const Frame& frame, const IndexRange& range, GLenum primitive = 
   frame.stats->volume_triangles += range.count / 3;
 }
 
+// Sides that start at an edge of a triangle whose plane holds the light lie in that plane. Exactly,
+// they are just behind whatever lies there and is seen from its lit side, and just before what is
+// seen from its unlit one, which count_unlit_receivers() shades; so where there are such triangles,
+// all sides are drawn a little farther away than they are: by the rounding of depths, and that of
+// corners to a 256th of a pixel, eight times over.
+constexpr float kOffsetSlope = 8.0f / 256, kOffsetSteps = 8;
+
 // Which lists a way of counting draws: z-fail the whole surface of the volume, z-pass its sides,
 // and the light caps of casters that are not seen themselves.
 void draw_lists(const Frame& frame, const Method& m,
                 const std::array<IndexRange, kListKinds>& ranges, bool z_fail, bool caps,
-                bool turned) {
+                bool turned, bool offset) {
   const int first = turned ? kSidesTurned : kSides;
+  if (offset) offset_depth(kOffsetSlope, kOffsetSteps);
   draw_range(frame, ranges[first],
              m.primitives == Primitives::strips ? GL_TRIANGLE_STRIP
              : m.primitives == Primitives::fans ? GL_TRIANGLE_FAN
                                                 : GL_TRIANGLES);
+  if (offset) offset_depth(0, 0);
   if (z_fail || caps) draw_range(frame, ranges[first + kLightCap]);
   if (z_fail) draw_range(frame, ranges[first + kDarkCap]);
 }
@@ -117,6 +128,7 @@ struct Prepared {
   std::vector<bool> changed;  // of each, its sides
   long long layers = 0;       // no ray from the light crosses more casting triangles
   bool grouped = false;
+  bool offset = false;  // sides are moved away
 };
 
 void update_all_lists(const Frame& frame, const LightPlan& plan, Prepared& prepared) {
@@ -142,7 +154,9 @@ Prepared prepare(const Frame& frame, const LightPlan& plan) {
     out.changed.push_back(update_sides(v, mesh.gpu, mesh.version, of.light, of.parts));
     out.layers += v.layers;
     out.all.push_back({&instance, &mesh.gpu, &v, &of, {}});
+    out.offset |= v.grazed;
   }
+  for (InstanceVolumes& v : out.all) v.offset = out.offset;
   update_all_lists(frame, plan, out);
   for (const InstanceVolumes& v : out.all) {
     frame.stats->z_fail_volumes += static_cast<int>(v.volumes->z_fail_volumes);
@@ -271,7 +285,7 @@ void count_phase(const Frame& frame, const LightPlan& plan, const Method& m,
         if (!applied) apply(stencil_pass(m, grouped, z_fail, turned, phase), frame);
         applied = true;
         use_volumes(frame, plan, *b.of);
-        draw_lists(frame, m, b.ranges, z_fail, b.of->plan->caps_in_front, turned);
+        draw_lists(frame, m, b.ranges, z_fail, b.of->plan->caps_in_front, turned, b.of->offset);
       }
     }
   }
@@ -285,6 +299,7 @@ void count_group(const Frame& frame, const LightPlan& plan, const std::vector<Ba
 }
 
 void clear_stencil(const Frame& frame, int value) {
+  if (std::exchange(frame.stencil, std::nullopt) == value) return;
   Pass p;
   p.depth_test = false;
   apply(p, frame);
@@ -402,7 +417,7 @@ void count_by_blending(const Frame& frame, const LightPlan& plan, const Prepared
           const bool draw_enter = first != z_fail;
           p.cull = draw_enter != turned ? GL_BACK : GL_FRONT;
           apply(p, frame);
-          draw_lists(frame, m, b.ranges, z_fail, v.plan->caps_in_front, turned);
+          draw_lists(frame, m, b.ranges, z_fail, v.plan->caps_in_front, turned, v.offset);
         }
       }
     }
@@ -486,40 +501,51 @@ void normalise(const Frame& frame, const Method& m) {
   }
 }
 
-// --- receivers that do not cast --------------------------------------------------------------
+// --- receivers whose volumes do not shade them ------------------------------------------------
 
-// Their unlit side is in shadow though nothing of theirs counts (DEFINITIONS, "The prism and the
-// count"): drawn again where they are seen, they add one.
-void count_unlit_receivers(const Frame& frame, const LightPlan& plan, bool grouped) {
+// The unlit side of a receiver that does not cast is in shadow though nothing of its own counts
+// (docs/exactness.md). Where sides are moved away, those that belong before an unlit side may have
+// come behind it. Such receivers, drawn again where they are seen, add one.
+void count_unlit_receivers(const Frame& frame, const LightPlan& plan, const Prepared& prepared) {
   const Method& m = plan.method;
   for (std::size_t i = 0; i < plan.instances.size(); ++i) {
     const InstanceSlot& instance = frame.state->instances[i];
     if (!instance.alive) continue;
     const GpuMesh& mesh = frame.state->meshes[instance.mesh].gpu;
-    if (mesh.only_receive.empty()) continue;
-    for (const bool positive : {false, true}) {
-      std::vector<std::uint32_t> indices;
-      ExactStats stats;
-      for (const std::uint32_t t : mesh.only_receive) {
-        const Triangle& v = mesh.mesh.triangles[t];
-        const int side = light_side(mesh.mesh.positions[v[0]], mesh.mesh.positions[v[1]],
-                                    mesh.mesh.positions[v[2]], plan.instances[i].light, stats);
-        if ((side > 0) == positive) indices.insert(indices.end(), {2 * v[0], 2 * v[1], 2 * v[2]});
+    // By light side: of -1 the light sees the counterclockwise side, and the other one is unlit.
+    std::array<std::vector<std::uint32_t>, 2> indices;
+    const auto add = [&](std::uint32_t t, int side) {
+      const Triangle& v = mesh.mesh.triangles[t];
+      std::vector<std::uint32_t>& to = indices[side > 0 ? 1 : 0];
+      to.insert(to.end(), {2 * v[0], 2 * v[1], 2 * v[2]});
+    };
+    ExactStats exact;
+    for (const std::uint32_t t : mesh.only_receive) {
+      const Triangle& v = mesh.mesh.triangles[t];
+      add(t, light_side(mesh.mesh.positions[v[0]], mesh.mesh.positions[v[1]],
+                        mesh.mesh.positions[v[2]], plan.instances[i].light, exact));
+    }
+    if (prepared.offset && !plan.instances[i].parts.empty()) {
+      const CasterVolumes& v = instance.volumes[plan.number];
+      for (std::uint32_t t = 0; t < mesh.mesh.triangles.size(); ++t) {
+        if (mesh.casts[t] != 0 && mesh.receives[t] != 0) add(t, v.light_side[t]);
       }
-      if (indices.empty()) continue;
+    }
+    for (const bool positive : {false, true}) {
+      const std::vector<std::uint32_t>& drawn = indices[positive ? 1 : 0];
+      if (drawn.empty()) continue;
       Pass p;
       p.depth_func = GL_EQUAL;
       p.depth_clamp = m.far_plane == FarPlane::clamp;
-      // The light sees the counterclockwise side of those of side -1: their clockwise one is dark.
       p.cull = positive ? GL_BACK : GL_FRONT;
       float brightness = 1;
       if (m.mask == MaskIn::stencil) {
         p.stencil_test = true;
-        if (grouped) {  // the shaded bit says it all
+        if (prepared.grouped) {  // the shaded bit says it all
           p.stencil_ref = static_cast<GLint>(kShadedBit);
           p.stencil_write = kShadedBit;
         }
-        p.front.depth_pass = p.back.depth_pass = grouped ? GL_REPLACE : GL_INCR;
+        p.front.depth_pass = p.back.depth_pass = prepared.grouped ? GL_REPLACE : GL_INCR;
       } else {
         const Blend& blend = m.arithmetic == Arithmetic::doubling ? kDouble : kHalve;
         p.blend = true;
@@ -541,9 +567,9 @@ void count_unlit_receivers(const Frame& frame, const LightPlan& plan, bool group
       glVertexAttribPointer(kVertex, 4, GL_FLOAT, GL_FALSE, 0, nullptr);
       glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffer.id());
       glBufferData(GL_ELEMENT_ARRAY_BUFFER,
-                   static_cast<GLsizeiptr>(indices.size() * sizeof(std::uint32_t)), indices.data(),
+                   static_cast<GLsizeiptr>(drawn.size() * sizeof(std::uint32_t)), drawn.data(),
                    GL_STREAM_DRAW);
-      glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(indices.size()), GL_UNSIGNED_INT, nullptr);
+      glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(drawn.size()), GL_UNSIGNED_INT, nullptr);
       glBindVertexArray(0);
     }
   }
@@ -560,6 +586,20 @@ void clear_colours(const Frame& frame, const Method& m) {
 }
 
 }  // namespace
+
+void draw_lines(const VertexArray& array, const Buffer& buffer, const Buffer& vertices,
+                const std::vector<std::uint32_t>& indices) {
+  glBindVertexArray(array.id());
+  glBindBuffer(GL_ARRAY_BUFFER, vertices.id());
+  glEnableVertexAttribArray(kVertex);
+  glVertexAttribPointer(kVertex, 4, GL_FLOAT, GL_FALSE, 0, nullptr);
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffer.id());
+  glBufferData(GL_ELEMENT_ARRAY_BUFFER,
+               static_cast<GLsizeiptr>(indices.size() * sizeof(std::uint32_t)), indices.data(),
+               GL_STREAM_DRAW);
+  glDrawElements(GL_LINES, static_cast<GLsizei>(indices.size()), GL_UNSIGNED_INT, nullptr);
+  glBindVertexArray(0);
+}
 
 void draw_where_lit(Pass& p, const LitTest& lit, bool once) {
   p.stencil_test = true;
@@ -580,12 +620,12 @@ Result<LitTest> draw_light_mask(const Frame& frame, const LightPlan& plan, const
   Prepared prepared = prepare(frame, plan);
   if (m.mask == MaskIn::stencil) {
     const LitTest lit = count_in_stencil(frame, plan, prepared);
-    count_unlit_receivers(frame, plan, prepared.grouped);
+    count_unlit_receivers(frame, plan, prepared);
     return lit;
   }
   clear_colours(frame, m);
   count_by_blending(frame, plan, prepared);
-  count_unlit_receivers(frame, plan, false);
+  count_unlit_receivers(frame, plan, prepared);
   if (m.float_bits > 0) {
     Result<bool> good = check_floats(frame, m, *target);
     if (!good) return good.error();
@@ -597,15 +637,51 @@ Result<LitTest> draw_light_mask(const Frame& frame, const LightPlan& plan, const
 void draw_volume_faces(const Frame& frame, const LightPlan& plan, const Pass& pass,
                        const glm::vec4& colour) {
   const Prepared prepared = prepare(frame, plan);
+  apply(pass, frame);
   for (const std::vector<Batch>& batches : batches_of(prepared)) {
     for (const Batch& b : batches) {
-      apply(pass, frame);
       use_volumes(frame, plan, *b.of);
-      set(frame.state->programs.volume[static_cast<std::size_t>(plan.method.extrusion)].id(),
-          "u_colour", colour);
-      draw_lists(frame, plan.method, b.ranges, false, false, false);
-      draw_lists(frame, plan.method, b.ranges, false, false, true);
+      GLuint program =
+          frame.state->programs.volume[static_cast<std::size_t>(plan.method.extrusion)].id();
+      if (const auto& inside = frame.camera->keep_inside) {
+        program = frame.state->programs.volume_inside.id();
+        glUseProgram(program);
+        set(program, "u_clip", frame.clip_of(*b.of->instance));
+        set(program, "u_project", b.of->plan->project);
+        set(program, "u_inside", glm::mat4(*inside * b.of->instance->to_scene));
+      }
+      set(program, "u_colour", colour);
+      for (const bool turned : {false, true})
+        draw_lists(frame, plan.method, b.ranges, true, false, turned, false);
     }
+  }
+}
+
+void draw_silhouettes(const Frame& frame, const LightPlan& plan, const Pass& pass,
+                      const glm::vec4& colour) {
+  const Prepared prepared = prepare(frame, plan);
+  apply(pass, frame);
+  const std::optional<glm::dmat4>& inside = frame.camera->keep_inside;
+  const GLuint program =
+      inside ? frame.state->programs.flat_inside.id() : frame.state->programs.flat.id();
+  glUseProgram(program);
+  set(program, "u_colour", colour);
+  const VertexArray array = VertexArray::make();
+  const Buffer buffer = Buffer::make();
+  for (const InstanceVolumes& v : prepared.all) {
+    Silhouette edges;
+    for (std::uint32_t p = 0; p < v.plan->parts.size(); ++p) {
+      const EdgesOfParts& of = v.mesh->part_edges;
+      find_part_silhouette(edges, v.mesh->edges,
+                           std::span(of.edge).subspan(of.first[p], of.first[p + 1] - of.first[p]),
+                           v.mesh->parts.part_of, p, v.volumes->light_side,
+                           v.plan->parts[p].casting);
+    }
+    std::vector<std::uint32_t> indices;
+    for (const SilhouetteEdge& e : edges) indices.insert(indices.end(), {2 * e.a, 2 * e.b});
+    set(program, "u_clip", frame.clip_of(*v.instance));
+    if (inside) set(program, "u_inside", glm::mat4(*inside * v.instance->to_scene));
+    draw_lines(array, buffer, v.mesh->doubled, indices);
   }
 }
 

@@ -73,6 +73,8 @@ std::string_view name_of(Shadows v) {
       return "ambient";
     case Shadows::attenuated:
       return "attenuated";
+    case Shadows::none:
+      return "none";
   }
   return "";
 }
@@ -166,22 +168,35 @@ Result<Method> decide(Method m, const Situation& s, const Capabilities& c) {
   const bool one_point = s.directional_light && m.reach == Reach::infinite;
 
   // Counting.
-  if (m.count == Count::z_pass && s.near_shaded) {
+  if (m.count == Count::z_pass && s.near_shaded && !m.unchecked) {
     return refuse(
         "z-pass counts from the near plane, and casters lie between the near plane and the light "
         "(near clip volume), so its counts would be wrong: take --count auto, zfail, near-cap or "
         "zp-plus.");
   }
-  if (s.light_along_view && one_point &&
+  if (s.light_along_view && one_point && !m.unchecked &&
       (m.count == Count::z_fail || m.count == Count::near_cap || m.count == Count::zp_plus)) {
     return refuse(
         "The parallel view looks exactly along the light: all ends of the volumes fall into one "
         "point at infinity. Take --count auto, which counts z-pass there, or turn the view.");
   }
-  if (s.light_along_view && s.near_shaded) {
+  if (s.light_along_view && s.near_shaded && !m.unchecked) {
     return refuse(
         "The parallel view looks exactly against the light, from behind the casters: no counting "
         "on the graphics card is right there. Turn the view.");
+  }
+
+  if (m.count == Count::zp_plus && s.light_in_near_plane && s.near_shaded) {
+    return refuse(
+        "The light lies in the near plane, so nothing can be drawn on it as seen from the light: "
+        "take --count auto, zfail or near-cap.");
+  }
+  if (s.parallel_view && !s.directional_light && m.reach == Reach::infinite && !m.unchecked &&
+      (m.count == Count::z_fail ||
+       ((m.count == Count::automatic || m.count == Count::mixed) && s.near_shaded))) {
+    return refuse(
+        "Rays of a parallel view may run inside a lamp's volume for ever, and its dark cap at "
+        "infinity has no place in the picture: take --reach bounded, or raise the lamp.");
   }
 
   // Volumes.
@@ -255,7 +270,7 @@ Result<Method> decide(Method m, const Situation& s, const Capabilities& c) {
         "The picture without a light is put back where a full-size stencil says: take --shadows "
         "lights with other masks.");
   }
-  if (m.shadows != Shadows::lights && s.lights > 1) {
+  if (m.shadows != Shadows::lights && m.shadows != Shadows::none && s.lights > 1) {
     return refuse("Shadows that are " + std::string(name_of(m.shadows)) +
                   " are for one light: take --shadows lights for several.");
   }

@@ -36,10 +36,12 @@ enum class Primitives : std::uint8_t { quads, strips, fans };
 
 // What becomes of the mask. lights: each light adds its part where it is not shadowed (Everitt and
 // Kilgard, 3.3). restored: one light is drawn with everything else at once, and where it is
-// shadowed the picture without it is put back: the same, with less to blend. The others are the
+// shadowed the picture without it is put back: the same, with less to blend. The next are the
 // first paper's for one light: black; ambient: and an ambient term added; attenuated: the lit scene
-// at half its brightness. automatic: restored for one light in the stencil, else lights.
-enum class Shadows : std::uint8_t { automatic, lights, restored, black, ambient, attenuated };
+// at half its brightness. none: there are no shadows, as a measure of what they cost; the first
+// light is drawn with the ambient term in one pass. automatic: restored for one light in the
+// stencil, else lights.
+enum class Shadows : std::uint8_t { automatic, lights, restored, black, ambient, attenuated, none };
 
 struct Method {
   MaskIn mask = MaskIn::stencil;
@@ -58,6 +60,9 @@ struct Method {
   // Alpha and screen masks in floats of 16 or 32 bits, whose powers of two count without a clamp;
   // 0: in 8 bits. Decided, not asked for: casters that a view ray can enter twice need it.
   int float_bits = 0;
+  // For demonstrations: counts z-pass, and along a parallel view's light, where decide() would
+  // refuse it since the mask is wrong there. What cannot be drawn at all is refused all the same.
+  bool unchecked = false;
   bool keep_double_blending = false;  // KEEP instead of INCR where a light is added (stencil): the
                                       // paper's 3.4; only where no two fragments share a depth
 };
@@ -67,9 +72,10 @@ struct Situation {
   bool parallel_view = false;
   bool light_along_view = false;  // a parallel view exactly along a directional light
   bool directional_light = false;
-  bool all_convex = true;      // every caster is closed and convex
-  bool near_shaded = false;    // some caster may shade the near rectangle (near clip volume)
-  bool target_stencil = true;  // the framebuffer can have a stencil attachment
+  bool light_in_near_plane = false;  // to rounding: seen from it the plane is a line
+  bool all_convex = true;            // every caster is closed and convex
+  bool near_shaded = false;          // some caster may shade the near rectangle (near clip volume)
+  bool target_stencil = true;        // the framebuffer can have a stencil attachment
   bool target_alpha = true;
   bool infinite_view = true;  // the view's far plane can be at infinity
   bool can_bound = false;     // there is a plane for Reach::bounded

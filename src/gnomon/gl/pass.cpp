@@ -42,6 +42,11 @@ void apply(const Pass& p, const PassSupport& support) {
   }
 }
 
+void offset_depth(float factor, float units) {
+  enable(GL_POLYGON_OFFSET_FILL, factor != 0 || units != 0);
+  glPolygonOffset(factor, units);
+}
+
 StateGuard::Face StateGuard::take_face(bool front) {
   Face f;
   f.func = integer(front ? GL_STENCIL_FUNC : GL_STENCIL_BACK_FUNC);
@@ -76,6 +81,8 @@ StateGuard::StateGuard(const PassSupport& support) : support_(support) {
   dither_ = glIsEnabled(GL_DITHER);
   alpha_to_coverage_ = glIsEnabled(GL_SAMPLE_ALPHA_TO_COVERAGE);
   offset_fill_ = glIsEnabled(GL_POLYGON_OFFSET_FILL);
+  glGetFloatv(GL_POLYGON_OFFSET_FACTOR, &offset_factor_);
+  glGetFloatv(GL_POLYGON_OFFSET_UNITS, &offset_units_);
   discard_ = glIsEnabled(GL_RASTERIZER_DISCARD);
   restart_ = glIsEnabled(desktop() ? GL_PRIMITIVE_RESTART : GL_PRIMITIVE_RESTART_FIXED_INDEX);
   if (desktop()) {
@@ -153,6 +160,7 @@ StateGuard::~StateGuard() {
   enable(GL_DITHER, dither_);
   enable(GL_SAMPLE_ALPHA_TO_COVERAGE, alpha_to_coverage_);
   enable(GL_POLYGON_OFFSET_FILL, offset_fill_);
+  glPolygonOffset(offset_factor_, offset_units_);
   enable(GL_RASTERIZER_DISCARD, discard_);
   enable(desktop() ? GL_PRIMITIVE_RESTART : GL_PRIMITIVE_RESTART_FIXED_INDEX, restart_);
   if (desktop()) {

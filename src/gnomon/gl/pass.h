@@ -48,6 +48,10 @@ struct PassSupport {
 };
 void apply(const Pass& pass, const PassSupport& support);
 
+// Moves what is drawn from here on away from the eye: `factor` of its depth's slope per pixel and
+// `units` of the smallest depth step. 0, 0: no more. Passes do not change it.
+void offset_depth(float factor, float units);
+
 // The caller's state: everything that this room touches, taken when made, put back when destroyed.
 class StateGuard {
  public:
@@ -70,6 +74,7 @@ class StateGuard {
             restart_, clamp_ = GL_FALSE, bounds_test_ = GL_FALSE, dither_, alpha_to_coverage_,
             offset_fill_, discard_, srgb_ = GL_FALSE;
   std::array<GLfloat, 2> bounds_{};
+  GLfloat offset_factor_ = 0, offset_units_ = 0;
   GLfloat clear_depth_ = 1;
   GLint clear_stencil_ = 0, depth_func_, cull_face_, front_face_, program_, vertex_array_,
         array_buffer_, draw_framebuffer_, read_framebuffer_, renderbuffer_, active_texture_,

@@ -1,6 +1,7 @@
 // Which parts are counted z-pass or z-fail, as one or by polygon, with all triangles or half.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -36,6 +37,16 @@ bool overlap(const Box3& box, const Vec3& lo, const Vec3& hi) {
 bool along_view(const Camera& camera, const Light& light) {
   return camera.eye.w == 0 && light.w == 0 &&
          glm::cross(Vec3(camera.eye), Vec3(light)) == Vec3(0.0);
+}
+
+// Points thrown from the light onto the near plane lose as many bits as the light's distance from
+// it is smaller than the coordinates: floats keep 24, and a picture needs 12.
+bool in_near_plane(const Camera& camera, const Light& light) {
+  const glm::dmat4 rows = glm::transpose(camera.clip);
+  const Vec4 plane = rows[3] + rows[2];
+  double size = 0;
+  for (int i = 0; i < 4; ++i) size += std::fabs(plane[i] * light[i]);
+  return std::fabs(glm::dot(plane, light)) <= 0x1p-12 * size;
 }
 
 constexpr double kLarge = 16777216.0;  // "Accelerated Stencil Shadow Extrusion": LARGE
@@ -146,6 +157,7 @@ Result<LightPlan> plan_light(const Frame& frame, const Light& light, std::uint32
   Situation s;
   s.parallel_view = camera.eye.w == 0;
   s.light_along_view = along_view(camera, light);
+  s.light_in_near_plane = in_near_plane(camera, light);
   s.directional_light = light.w == 0;
   s.target_stencil = target.stencil;
   s.target_alpha = target.alpha;

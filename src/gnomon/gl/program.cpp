@@ -14,7 +14,8 @@ Result<GLuint> compile_stage(std::string_view name, GLenum stage, std::string_vi
                              const std::string& defines) {
   const std::string version =
       epoxy_is_desktop_gl() ? "#version 330 core\n"
-                            : "#version 300 es\nprecision highp float;\nprecision highp int;\n";
+                            : "#version 300 es\nprecision highp float;\nprecision highp int;\n"
+                              "precision highp sampler2D;\n";
   const std::string source = version + defines + std::string(text);
   const GLuint shader = glCreateShader(stage);
   const char* data = source.c_str();
@@ -90,6 +91,9 @@ Result<Programs> compile_programs() {
       {&p.volume[1], "volume, extruded", kVolumeVertex, kColourFragment, "#define SHADER\n"},
       {&p.volume[2], "volume, blended", kVolumeVertex, kColourFragment, "#define BLEND\n"},
       {&p.volume[3], "volume, blended", kVolumeVertex, kColourFragment, "#define BLEND\n"},
+      {&p.volume_inside, "volume, clipped", kVolumeVertex, kColourFragment,
+       "#define SHADER\n#define INSIDE\n"},
+      {&p.flat_inside, "flat, clipped", kFlatVertex, kColourFragment, "#define INSIDE\n"},
       {&p.near_light, "near plane from the light", kNearLightVertex, kNearLightFragment, ""},
       {&p.flat, "flat", kFlatVertex, kColourFragment, ""},
       {&p.rectangle, "rectangle", kRectangleVertex, kColourFragment, ""},
@@ -108,9 +112,10 @@ Result<Programs> compile_programs() {
 Result<GLuint> surface_program(Programs& programs, unsigned variant) {
   ProgramHandle& program = programs.surface[variant];
   if (!program) {
-    constexpr const char* kNames[] = {"LIT", "TEXTURED", "SMOOTH", "SPECULAR", "FADING", "MASKED"};
+    constexpr const char* kNames[] = {"LIT",    "TEXTURED", "SMOOTH", "SPECULAR",
+                                      "FADING", "MASKED",   "INSIDE"};
     std::string defines;
-    for (int i = 0; i < 6; ++i) {
+    for (int i = 0; i < 7; ++i) {
       if ((variant >> i & 1u) != 0) defines += std::string("#define ") + kNames[i] + "\n";
     }
     Result<ProgramHandle> made =

@@ -36,13 +36,16 @@ enum SurfaceVariant : unsigned {
   kSpecular = 8,
   kFading = 16,  // distance attenuation or a radius
   kMasked = 32,  // times a mask in a texture
-  kSurfaceVariants = 64
+  kInside = 64,  // nothing outside another camera's frustum
+  kSurfaceVariants = 128
 };
 
 struct Programs {
-  ProgramHandle volume[4];   // by Extrusion
-  ProgramHandle near_light;  // casters as the light sees them on the near plane (ZP+)
-  ProgramHandle flat;        // one colour on surfaces
+  ProgramHandle volume[4];      // by Extrusion
+  ProgramHandle near_light;     // casters as the light sees them on the near plane (ZP+)
+  ProgramHandle volume_inside;  // extruded in the shader; nothing outside another camera's frustum
+  ProgramHandle flat_inside;    // likewise
+  ProgramHandle flat;           // one colour on surfaces
   ProgramHandle surface[kSurfaceVariants];  // made when first used: surface_program()
   ProgramHandle rectangle;                  // one colour over the viewport, at the near plane
   ProgramHandle texture;                    // a texture over the viewport

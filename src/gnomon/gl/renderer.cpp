@@ -34,7 +34,8 @@ void clear(const Frame& frame, const Target& target, const Vec3& background) {
   glClearColor(static_cast<float>(background.x), static_cast<float>(background.y),
                static_cast<float>(background.z), 0.0f);
   glClearDepthf(1.0f);
-  glClearStencil(0);
+  glClearStencil(kWrapMiddle);  // where the first light's count most often begins
+  if (target.format.stencil) frame.stencil = kWrapMiddle;
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT |
           (target.format.stencil ? GL_STENCIL_BUFFER_BIT : 0));
 }
@@ -265,6 +266,24 @@ Result<bool> draw_paper(const Frame& frame, const Target& picture, const LightSo
   return true;
 }
 
+// Every light everywhere.
+void draw_unshadowed(const Frame& frame, std::span<const LightSource> lights,
+                     const FrameOptions& options) {
+  Lighting lighting;
+  lighting.light = &lights.front();
+  lighting.ambient = options.ambient;
+  lighting.emission = true;
+  draw_lit(frame, first_pass(true), lighting);
+  Pass add = colour_pass(GL_EQUAL);
+  add.blend = true;
+  add.source = add.destination = GL_ONE;
+  for (const LightSource& light : lights.subspan(1)) {
+    Lighting one;
+    one.light = &light;
+    draw_lit(frame, add, one);
+  }
+}
+
 }  // namespace
 
 Renderer::Renderer(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -351,8 +370,9 @@ Result<FrameStats> Renderer::draw(const Camera& camera, std::span<const LightSou
   Frame frame{state_.get(), &camera, &counted};
   Method wanted = options.method;
   const TargetFacts facts{true, true, static_cast<int>(lights.size())};
+  counted.method = wanted;
   std::vector<LightPlan> plans;
-  for (std::size_t i = 0; i < lights.size(); ++i) {
+  for (std::size_t i = 0; i < lights.size() && wanted.shadows != Shadows::none; ++i) {
     Result<LightPlan> plan =
         plan_light(frame, lights[i].light, static_cast<std::uint32_t>(i), wanted, facts);
     if (!plan) return plan.error();
@@ -371,7 +391,9 @@ Result<FrameStats> Renderer::draw(const Camera& camera, std::span<const LightSou
   clear(frame, picture, options.background);
   frame.scissor = visible_rectangle(frame);
   Result<bool> drawn = true;
-  const Shadows shadows = plans.empty() ? Shadows::lights : plans.front().method.shadows;
+  const Shadows shadows = lights.empty()  ? Shadows::lights
+                          : plans.empty() ? Shadows::none
+                                          : plans.front().method.shadows;
   if (shadows == Shadows::restored) {
     Lighting all;
     all.light = &lights.front();
@@ -390,20 +412,17 @@ Result<FrameStats> Renderer::draw(const Camera& camera, std::span<const LightSou
     ambient.emission = true;
     draw_lit(frame, first_pass(true), ambient);
     drawn = add_lights(frame, picture, lights, plans);
+  } else if (shadows == Shadows::none) {
+    draw_unshadowed(frame, lights, options);
   } else {
     drawn = draw_paper(frame, picture, lights.front(), plans.front(), options);
   }
   if (!drawn) return drawn.error();
   if (state_->failure) return *std::exchange(state_->failure, std::nullopt);
-  if (options.show == Show::volumes) {
-    bind(picture);
-    Pass p = colour_pass(GL_LESS);
-    p.blend = true;
-    p.source = GL_SRC_ALPHA;
-    p.destination = GL_ONE_MINUS_SRC_ALPHA;
-    for (const LightPlan& plan : plans)
-      draw_volume_faces(frame, plan, p, glm::vec4(1.0f, 0.85f, 0.1f, 0.12f));
-  }
+  bind(picture);
+  frame.scissor.reset();  // volumes are seen beyond what they shade
+  drawn = draw_overlay(frame, lights, plans, options.overlay, options.background);
+  if (!drawn) return drawn.error();
   return counted;
 }
 

@@ -40,11 +40,19 @@ struct LightSource {
   double radius = 0;           // metres; the light ends there; 0: it does not end
 };
 
-enum class Show : std::uint8_t { picture, mask, counts, volumes, wireframe };
+// What of the computation is drawn over the picture.
+struct Overlay {
+  bool volumes = false;      // the sides of the shadow volumes, yellow and transparent
+  bool silhouettes = false;  // the edges that they start from, pink
+  bool edges = false;        // all edges of the meshes: wire frame, without surfaces
+  bool lights = false;       // where point lights are, as small crosses
+  bool counts = false;       // the count in the stencil as a colour: blue 1, green 2, ... red many
+  std::optional<Camera> frustum{};  // the edges of another camera's frustum
+};
 
 struct FrameOptions {
   Method method{};
-  Show show = Show::picture;
+  Overlay overlay{};
   Vec3 ambient{0.25, 0.25, 0.25};
   Vec3 background{0.62, 0.71, 0.82};
 };

@@ -15,6 +15,10 @@ inline constexpr const char* kVolumeVertex = R"(
 in vec4 a_vertex;
 uniform mat4 u_clip;
 uniform mat4 u_project;
+#ifdef INSIDE
+uniform mat4 u_inside;
+out vec4 v_inside;
+#endif
 invariant gl_Position;
 void main() {
 #if defined(SHADER)
@@ -26,13 +30,24 @@ void main() {
   vec4 p = a_vertex;
 #endif
   gl_Position = u_clip * p;
+#ifdef INSIDE
+  v_inside = u_inside * p;
+#endif
 }
 )";
 
 inline constexpr const char* kColourFragment = R"(
 uniform vec4 u_colour;
 out vec4 o_colour;
-void main() { o_colour = u_colour; }
+#ifdef INSIDE
+in vec4 v_inside;
+#endif
+void main() {
+#ifdef INSIDE
+  if (any(greaterThan(abs(v_inside.xyz), vec3(v_inside.w)))) discard;
+#endif
+  o_colour = u_colour;
+}
 )";
 
 // The shadow that a caster's vertex throws on the near plane n . X = 0: X' = (n.L) X - (n.X) L.
@@ -66,8 +81,17 @@ void main() {
 inline constexpr const char* kFlatVertex = R"(
 in vec4 a_vertex;
 uniform mat4 u_clip;
+#ifdef INSIDE
+uniform mat4 u_inside;
+out vec4 v_inside;
+#endif
 invariant gl_Position;
-void main() { gl_Position = u_clip * a_vertex; }
+void main() {
+  gl_Position = u_clip * a_vertex;
+#ifdef INSIDE
+  v_inside = u_inside * a_vertex;
+#endif
+}
 )";
 
 inline constexpr const char* kSurfaceVertex = R"(
@@ -77,6 +101,10 @@ in vec2 a_texture;
 uniform mat4 u_clip;
 uniform mat4 u_model;
 uniform mat3 u_normal_matrix;
+#ifdef INSIDE
+uniform mat4 u_inside;
+out vec4 v_inside;
+#endif
 invariant gl_Position;
 out vec3 v_position;
 out vec3 v_normal;
@@ -86,6 +114,9 @@ void main() {
   v_position = (u_model * a_vertex).xyz;
   v_normal = u_normal_matrix * a_normal;
   v_texture = a_texture;
+#ifdef INSIDE
+  v_inside = u_inside * a_vertex;
+#endif
 }
 )";
 
@@ -129,7 +160,13 @@ vec3 mapped_normal(vec3 n) {
   // Texture rows run downwards, green upwards.
   return normalize((t * m.x - b * m.y) * inversesqrt(scale) + n * m.z);
 }
+#ifdef INSIDE
+in vec4 v_inside;
+#endif
 void main() {
+#ifdef INSIDE
+  if (any(greaterThan(abs(v_inside.xyz), vec3(v_inside.w)))) discard;
+#endif
   vec3 base = u_base;
 #ifdef TEXTURED
   if (u_has_base == 1) base *= texture(u_base_map, v_texture).rgb;
@@ -193,7 +230,9 @@ void main() {
 }
 )";
 
-// Floats at the ends of their range have lost a count, or are about to.
+// Floats at the ends of their range have lost a count, or are about to. So have those that are no
+// power of two: a driver may round towards zero, so that too large a half float does not become
+// infinite but stays at 65504, and is halved from there.
 inline constexpr const char* kOverflowFragment = R"(
 in vec2 v_texture;
 uniform sampler2D u_image;
@@ -203,7 +242,8 @@ uniform float u_most;
 out vec4 o_colour;
 void main() {
   float value = dot(texture(u_image, v_texture), u_channel);
-  if (value >= u_least && value <= u_most) discard;
+  bool power_of_two = (floatBitsToUint(value) & 0x7fffffu) == 0u;
+  if (power_of_two && value >= u_least && value <= u_most) discard;
   o_colour = vec4(1.0);
 }
 )";

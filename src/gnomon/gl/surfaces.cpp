@@ -55,7 +55,9 @@ void draw_depth(const Frame& frame, const Pass& pass) { draw_flat(frame, pass, g
 
 void draw_flat(const Frame& frame, const Pass& pass, const glm::vec4& colour) {
   Culling culling(frame, pass);
-  const GLuint program = frame.state->programs.flat.id();
+  const std::optional<glm::dmat4>& inside = frame.camera->keep_inside;
+  const GLuint program =
+      inside ? frame.state->programs.flat_inside.id() : frame.state->programs.flat.id();
   glUseProgram(program);
   set(program, "u_colour", colour);
   for (const InstanceSlot& instance : frame.state->instances) {
@@ -64,6 +66,7 @@ void draw_flat(const Frame& frame, const Pass& pass, const glm::vec4& colour) {
     if (mesh.surface_count == 0) continue;
     const GLsizei solid = culls(frame, instance, mesh) ? mesh.solid_count : 0;
     set(program, "u_clip", frame.clip_of(instance));
+    if (inside) set(program, "u_inside", glm::mat4(*inside * instance.to_scene));
     glBindVertexArray(mesh.surface.id());
     for (const bool cull : {true, false}) {
       const GLsizei first = cull ? 0 : solid, count = cull ? solid : mesh.surface_count - solid;
@@ -83,7 +86,8 @@ void draw_lit(const Frame& frame, const Pass& pass, const Lighting& l) {
   const LightSource& light = l.light != nullptr ? *l.light : none;
   Vec4 towards = light.light;
   if (towards.w != 0) towards /= towards.w;
-  unsigned common = 0;
+  const std::optional<glm::dmat4>& inside = frame.camera->keep_inside;
+  unsigned common = inside ? kInside : 0u;
   if (l.light != nullptr) {
     common |= kLit;
     if (towards.w != 0 && (light.attenuation != Vec3(1, 0, 0) || light.radius > 0))
@@ -132,6 +136,7 @@ void draw_lit(const Frame& frame, const Pass& pass, const Lighting& l) {
       if (of_instance != program) {
         of_instance = program;
         set(program, "u_clip", frame.clip_of(instance));
+        if (inside) set(program, "u_inside", glm::mat4(*inside * instance.to_scene));
         set(program, "u_model", glm::mat4(instance.to_scene));
         set(program, "u_normal_matrix",
             glm::mat3(glm::transpose(glm::inverse(glm::dmat3(instance.to_scene)))));

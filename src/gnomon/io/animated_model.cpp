@@ -38,7 +38,7 @@ bool never_animated(const std::filesystem::path& path) {
 
 glm::vec3 unit(const Vec3& v) {
   const double length = std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
-  return length > 0 ? glm::vec3(v / length) : glm::vec3(0);
+  return length > 0 && std::isfinite(length) ? glm::vec3(v / length) : glm::vec3(0);
 }
 
 std::vector<RigShape> all_posed(const AnimatedModel::Source& source, double time) {

@@ -45,7 +45,8 @@ struct AnimatedModel {
 
   // Positions of mesh at a time, seconds from 0 on; more than the duration goes round. `positions`
   // becomes as long as mesh.positions. From equal files these are the same bits as load_scene's
-  // before it subtracts the origin. Several threads may pose one model.
+  // before it subtracts the origin. Several threads may pose one model. What a
+  // hostile file moves beyond all bounds is not looked for.
   void pose(double time, std::vector<Vec3>& positions) const;
   // And shading normals, three to a triangle as in appearance.normals, which stay empty where the
   // file has none.

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gnomon/io/assimp_looks.h>
 #include <gnomon/io/assimp_rig.h>
+#include <gnomon/io/read_text.h>
 
 #include <algorithm>
 #include <cmath>
@@ -65,7 +66,7 @@ int AssimpLooks::texture(const aiMaterial& from, int type, Known& known) {
   if (known.textured && uv_set != known.uv_set) {
     warn(model_.warnings,
          "Pictures that lie otherwise on the surface than the material's first were left out.",
-         fmt::format("{}: {}", model_.report.path, name));
+         fmt::format("{}: {}", model_.report.path, in_quotes(name, 200)));
     return -1;
   }
   const PictureEdges edges{edge_of(from, _AI_MATKEY_MAPPINGMODE_U_BASE, kind),
@@ -108,10 +109,13 @@ std::uint32_t AssimpLooks::material(const aiMesh& mesh) {
     if (from.GetTextureCount(other) == 0) continue;
     warn(model_.warnings,
          "Maps of materials but of the base colour, the light they give and normals were left out.",
-         fmt::format("{}: material {}", model_.report.path, m.name));
+         fmt::format("{}: material {}", model_.report.path, in_quotes(m.name, 200)));
   }
-  known->material = static_cast<std::uint32_t>(model_.looks->materials.size());
-  model_.looks->materials.push_back(std::move(m));
+  // IFC has its few materials once for each element.
+  std::vector<Material>& all = model_.looks->materials;
+  const auto same = std::find(all.begin(), all.end(), m);
+  known->material = static_cast<std::uint32_t>(same - all.begin());
+  if (same == all.end()) all.push_back(std::move(m));
   return known->material;
 }
 

@@ -166,8 +166,8 @@ void finish_report(Reading& reading) {
 
 }  // namespace
 
-Result<Model> read_cityjson(std::string_view text, const std::string& path,
-                            const std::string& lod, const ReadOptions& options) {
+Result<Model> read_cityjson(std::string_view text, const std::string& path, const std::string& lod,
+                            const ReadOptions& options) {
   Reading reading;
   reading.path = path;
   reading.lod = lod;

@@ -33,7 +33,7 @@ struct Reading {
   std::set<Lod> lods;
   ModelBuilder builder;
   std::unordered_map<std::string, std::uint32_t> materials;  // of looks, by their JSON text
-  std::string error;  // the first one; reading stops there
+  std::string error;                                         // the first one; reading stops there
 
   // Sets the error, with the file (and line) in front; returns false.
   bool fail(const std::string& what);

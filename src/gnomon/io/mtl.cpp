@@ -198,8 +198,13 @@ void read_mtl(const std::string& library, Model& model, ModelPictures& pictures,
          fmt::format("{}: {}", model.report.path, in_quotes(library, 200)));
     return;
   }
+  read_mtl_text(text.value(), library, model, pictures, names);
+}
+
+void read_mtl_text(std::string_view text, const std::string& library, Model& model,
+                   ModelPictures& pictures, MtlNames& names) {
   Reader reader(model, pictures, names, library);
-  for (MeshLines lines(text.value()); lines.next();) reader.line(lines);
+  for (MeshLines lines(text); lines.next();) reader.line(lines);
 }
 
 }  // namespace gnomon

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <string_view>
 
 #include <gnomon/io/model_pictures.h>
 
@@ -18,5 +19,9 @@ using MtlNames = std::map<std::string, std::uint32_t>;
 // not beside the model, numbers that are none (the line), maps that are not read, bump maps that
 // hold heights and not normals. Precondition: model.looks.
 void read_mtl(const std::string& library, Model& model, ModelPictures& pictures, MtlNames& names);
+
+// The same of the library's text.
+void read_mtl_text(std::string_view text, const std::string& library, Model& model,
+                   ModelPictures& pictures, MtlNames& names);
 
 }  // namespace gnomon

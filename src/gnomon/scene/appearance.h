@@ -46,6 +46,7 @@ struct Material {
   TextureAlpha alpha = TextureAlpha::ignored;
   double alpha_cutoff = 0.5;  // cut: what has less alpha is a hole
   bool double_sided = true;   // false: the file wants back faces not to be drawn
+  friend bool operator==(const Material&, const Material&) = default;
 };
 
 inline constexpr std::uint32_t kNoMaterial = 0xffffffffu;
