@@ -65,6 +65,10 @@ struct Cameras {
   }
 };
 
+std::string words_of(const gl::Method& m) {
+  return gl::describe(m) + (m.mask_scale < 1 ? fmt::format(", mask scale {}", m.mask_scale) : "");
+}
+
 // One picture's answer, into its row.
 void note(Totals& totals, const std::string& where, const gl::Method& m, const MaskDifference& d,
           std::uint64_t other) {
@@ -104,7 +108,7 @@ void verify_light(const Stage& stage, const std::string& where, const Cameras& c
   };
   while (const std::optional<gl::Method> next = pairs.next()) {
     const gl::Method& m = *next;
-    if (gl::describe(m).find(stage.o.only) == std::string::npos) {
+    if (words_of(m).find(stage.o.only) == std::string::npos) {
       pairs.skipped();
       continue;
     }
@@ -120,7 +124,7 @@ void verify_light(const Stage& stage, const std::string& where, const Cameras& c
       fmt::print(stderr, "  {:6.0f} ms {}{}\n",
                  std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
                      .count(),
-                 gl::describe(m), drawn ? "" : ": " + drawn.error().message);
+                 words_of(m), drawn ? "" : ": " + drawn.error().message);
     }
     if (!drawn) {
       if (!pairs.refused(drawn.error().message)) ++totals.refused[drawn.error().message];

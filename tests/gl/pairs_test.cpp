@@ -81,6 +81,23 @@ TEST(Pairs, KeepTheirBoundsOverBoxes) {
   EXPECT_GT(try_pairs(scene, small_axonometry(), kLights).drawn, 50);
 }
 
+// A low sun's shadows end in an upright plane, across x or y, whose matrix has a zero where that of
+// a point at infinity has one.
+TEST(Reach, BoundedByAnUprightPlaneIsExact) {
+  const Scene scene = test::scene_of(boxes_on_ground());
+  Stage stage = stage_of(scene);
+  const View view = aerial();
+  const Camera camera = camera_of(view, depth_range(scene, view, true));
+  Method m;
+  m.reach = Reach::bounded;
+  for (const Light& light : {Light(0.9, -0.3, 0.2, 0), Light(-0.9, 0.25, 0.2, 0),
+                             Light(0.3, -0.9, 0.2, 0), Light(0.25, 0.9, 0.2, 0)}) {
+    const Result<ShadowMask> mask = stage.renderer.mask(camera, light, m);
+    if (!mask) continue;  // the near plane lies behind such a plane
+    EXPECT_LE(compare(mask.value(), exact_mask(scene, light, view)).pixels, 10) << light.x;
+  }
+}
+
 TEST(Pairs, KeepTheirBoundsOnOpenGlEs) {
   const Scene scene = test::scene_of(boxes_on_ground());
   EXPECT_GT(try_pairs(scene, small_aerial(), kLights, Api::opengl_es).drawn, 100);
