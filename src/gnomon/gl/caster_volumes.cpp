@@ -54,6 +54,7 @@ struct Builder {
 
   void append_part(std::uint32_t p) {
     const PartPlan& plan = v.plan[p];
+    if (plan.left_out) return;
     const Part& part = m.parts.parts[p];
     if (plan.by_polygon) {
       for (const std::uint32_t t : part.triangles) {
@@ -146,7 +147,7 @@ bool update_sides(CasterVolumes& v, const GpuMesh& m, std::uint64_t mesh_version
   for (std::size_t p = 0; p < plan.size(); ++p) {
     regions |= plan[p].by_region;
     for (const std::uint32_t t : m.parts.parts[p].triangles) {
-      casting[t] = casts(plan[p].casting, v.light_side[t]) ? 1 : 0;
+      casting[t] = !plan[p].left_out && casts(plan[p].casting, v.light_side[t]) ? 1 : 0;
       if (plan[p].by_region) in_region[t] = casting[t];
     }
   }
@@ -156,6 +157,7 @@ bool update_sides(CasterVolumes& v, const GpuMesh& m, std::uint64_t mesh_version
   v.layers = 0;
   for (std::size_t p = 0; p < plan.size(); ++p) {
     const Part& part = m.parts.parts[p];
+    if (plan[p].left_out) continue;
     if (part.convex && plan[p].casting != Casting::all_triangles) {
       ++v.layers;
     } else {
