@@ -39,12 +39,13 @@ MethodPairs::MethodPairs(const Situation& known, const Capabilities& capabilitie
     if (along && !(known.parallel_view && known.directional_light)) continue;
     for (const bool convex : {true, false}) {
       for (const bool near : {false, true}) {
-        for (const bool bound : {false, true}) {
+        for (const int more : {0, 1, 2, 3}) {
           Situation s = known;
           s.light_along_view = along;
           s.all_convex = convex;
           s.near_shaded = near;
-          s.can_bound = bound;
+          s.can_bound = (more & 1) != 0;
+          s.light_in_near_plane = (more & 2) != 0;
           situations_.push_back(s);
         }
       }
