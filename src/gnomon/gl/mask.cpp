@@ -62,7 +62,7 @@ void draw_range(const Frame& frame, const IndexRange& range, GLenum primitive = 
 // seen from its unlit one, which count_unlit_receivers() shades; so where there are such triangles,
 // all sides are drawn a little farther away than they are: by the rounding of depths, and that of
 // corners to a 256th of a pixel, eight times over.
-constexpr float kOffsetSlope = 8.0f / 256, kOffsetSteps = 8;
+constexpr float kOffsetSlope = 1.0f / 256, kOffsetSteps = 2;
 
 // Which lists a way of counting draws: z-fail the whole surface of the volume, z-pass its sides,
 // and the light caps of casters that are not seen themselves.
