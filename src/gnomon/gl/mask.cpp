@@ -301,7 +301,7 @@ void count_group(const Frame& frame, const LightPlan& plan, const std::vector<Ba
 }
 
 void clear_stencil(const Frame& frame, int value) {
-  if (std::exchange(frame.stencil, std::nullopt) == value) return;
+  if (std::exchange(frame.state->stencil, std::nullopt) == value) return;
   Pass p;
   p.depth_test = false;
   apply(p, frame);
@@ -440,7 +440,7 @@ Result<bool> check_floats(const Frame& frame, const Method& m, const Target& tar
   glCopyTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, 0, 0, target.format.width, target.format.height);
   Pass p;
   p.depth_test = false;
-  apply(p, state.support);
+  apply(p, frame);
   const GLuint program = state.programs.overflow.id();
   glUseProgram(program);
   set(program, "u_image", 3);
