@@ -438,7 +438,7 @@ Result<bool> check_floats(const Frame& frame, const Method& m, const Target& tar
   glCopyTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, 0, 0, target.format.width, target.format.height);
   Pass p;
   p.depth_test = false;
-  apply(p, state.support);
+  apply(p, frame);
   const GLuint program = state.programs.overflow.id();
   glUseProgram(program);
   set(program, "u_image", 3);
