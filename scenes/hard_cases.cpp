@@ -380,7 +380,7 @@ void add_eye_and_near_plane(Cases& c) {
     towers(b);
     c.add("near-plane-cuts-volumes-of-lamp",
           "The same with a lamp: volumes widen, and one starts behind the near plane.", b,
-          lamp(-4.2, -5.4, 8), c.from({-4.2, -7.4, 1.5}, {-1, 5, 0.8}, 1.0))
+          lamp(-2, -7.2, 8), c.from({-1.1, -8.5, 1.1}, {-0.5, 5, 0.8}, 1.0))
         .z_pass_fails = true;
   }
   {
@@ -562,8 +562,8 @@ void add_containers(Cases& c) {
     b.begin("crate");  // walls with a thickness, open above: closed, not convex
     b.cells({-1, -0.9, 0.9, 1}, [](int i, int j, int k) { return i != 1 || j != 1 || k == 0; },
             {0.4, 0, {0, 1, 1}});
-    c.add("light-in-crate", "A lamp in a crate that is open above.", b, lamp(0.1, 0.9, 1.2),
-          c.from({5, -8, 5}, {-0.6, 1.2, 1.2}, 0.9));
+    c.add("light-in-crate", "A lamp in a crate that is open above.", b, lamp(0.1, 0.9, 1.75),
+          c.from({5, -8, 5}, {-0.6, 1.2, 2.2}, 0.9));
   }
   {
     Builder b;
@@ -573,7 +573,7 @@ void add_containers(Cases& c) {
     c.add("light-in-cup",
           "A lamp in a cup without thickness, open above and at its foot: no closed caster, and "
           "directions behind it fill more than half a sphere.",
-          b, lamp(0.1, 1.1, 1.3), c.from({5, -8, 5}, {-0.6, 1.2, 1.2}, 0.9));
+          b, lamp(0.1, 1.1, 2.1), c.from({5, -8, 5}, {-0.6, 1.2, 2.2}, 0.9));
   }
   {
     Builder b;
@@ -684,28 +684,34 @@ std::vector<HardCase> hard_cases(int width, int height) {
 }
 
 Flight flight(int width, int height) {
+  // Round the lamp once, the course and the height waving; looks ahead, and now and then inwards.
+  const auto at = [](double t) {
+    const double r = 4.4 + 0.5 * std::cos(3 * t + 0.4);
+    return Vec3(r * std::cos(t), r * std::sin(t), 2 + 0.7 * std::sin(4 * t));
+  };
   Flight f;
   Builder b;
   b.ground(24);
-  b.begin("towers");
-  b.box({-2, -2, 0}, {2, 2, 2.2});
-  b.box({5, -3, 0}, {8, 2, 6}, {0.2, 0, {0, 0, 0}});
-  b.box({-9, -2, 0}, {-6, 3, 5}, {-0.3, 0, {0, 0, 0}});
-  b.box({-2, 6, 0}, {3, 9, 4});
-  b.box({-3, -10, 0}, {2, -7, 3});
+  b.begin("pillars");  // between lamp and course
+  for (int k = 0; k < 5; ++k) {
+    const double a = 2 * kPi * k / 5;
+    b.box({-0.4, -0.4, 0}, {0.4, 0.4, 3.0 + 0.6 * k},
+          {a, 0, {2.5 * std::cos(a), 2.5 * std::sin(a), 0}});
+  }
+  b.begin("towers");  // around
+  b.box({6, -3, 0}, {8, 2, 6}, {0.2, 0, {0, 0, 0}});
+  b.box({-9, -2, 0}, {-6.5, 3, 5}, {-0.3, 0, {0, 0, 0}});
+  b.box({-2, 6.5, 0}, {3, 9, 4});
+  b.box({-3, -10, 0}, {2, -6.5, 3});
   b.begin("bridge");
-  b.box({-9, 3.5, 3.2}, {-2.5, 5, 3.6});
-  b.begin("frame");
-  b.cage(1.6, 0.25, {0.3, 0.2, {4, -6, 2}});
+  b.box({1.5, -0.5, 3.2}, {7, 0.5, 3.5}, {2.2, 0, {0, 0, 0}});
+  b.begin("frame");  // flown through
+  const double there = 11 * kPi / 8;
+  b.cage(1.1, 0.18, {there + 0.2, 0, at(there)});
   b.begin("knot");
-  b.knot(0.35, 0.13, {0.2, 0.5, {3.2, 4.2, 2.2}}, 48, 6);
+  b.knot(0.35, 0.13, {0.2, 0.5, {4.6, 5, 2.2}}, 48, 6);
   f.scene = b.take();
   f.light = lamp(0.4, 0.3, 4.4);
-  // Round the lamp once, the course and the height waving; looks ahead, and now and then inwards.
-  const auto at = [](double t) {
-    const double r = 5.4 + 1.1 * std::cos(3 * t + 0.4);
-    return Vec3(r * std::cos(t), r * std::sin(t), 2.3 + 0.9 * std::sin(4 * t));
-  };
   for (int k = 0; k < kFlightFrames; ++k) {
     const double t = 2 * kPi * k / kFlightFrames;
     const Vec3 eye = at(t);

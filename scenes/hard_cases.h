@@ -27,11 +27,12 @@ struct HardCase {
 // Preconditions: width, height > 0 (pixels of the views; 4 : 3 shows them as they were made for).
 std::vector<HardCase> hard_cases(int width, int height);
 
-// A camera flies for kFlightFrames frames on a closed course between boxes, under a bridge and
-// through a frame, through lit air and through volumes, and around a lamp. It stays at least
-// kFlightRoom metres from every surface, so a near plane up to half of that cuts nothing seen.
+// A camera flies for kFlightFrames frames on a closed course around a lamp, between pillars and
+// towers, under a bridge and through a frame: through lit air and through volumes. It stays at
+// least kFlightRoom metres from every surface, so a near plane up to half of that cuts nothing
+// seen.
 inline constexpr int kFlightFrames = 300;
-inline constexpr double kFlightRoom = 0.2;
+inline constexpr double kFlightRoom = 0.5;
 struct Flight {
   Scene scene;
   Light light{0, 0, 1, 0};  // w = 1

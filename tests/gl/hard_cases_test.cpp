@@ -1,7 +1,8 @@
 // The hard cases of scenes/hard_cases.h: every way of counting, in every kind of mask, in both
 // APIs, against the exact mask.
-#include <chrono>
-#include <cstdlib>
+#include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include <glm/geometric.hpp>
 
@@ -26,15 +27,26 @@ Camera camera_of_case(const scenes::HardCase& c, bool infinite = true) {
   return camera_of(c.view, range);
 }
 
+bool starts_at_near_plane(Count count) {
+  return count == Count::near_cap || count == Count::zp_plus;
+}
+
 class HardCases : public testing::TestWithParam<std::size_t> {
  protected:
   const scenes::HardCase& hard() const { return cases()[GetParam()]; }
+  // automatic and mixed never are.
+  bool may_be_refused(Count count) const {
+    if (count == Count::z_pass) return true;  // the next test's
+    if (count == Count::automatic || count == Count::mixed) return false;
+    return hard().name == "parallel-view-along-light" ||
+           (count == Count::zp_plus && hard().name == "sun-in-zenith");
+  }
 };
 
-// The exact scene at kFiner samples a pixel each way, made when it is needed: where a mask differs, a
-// pixel is near an edge if within a pixel of its centre there is a sample of the same state, or of
-// another face. (What is thinner than a pixel has no pixel that shows both of its sides, and many a
-// shadow ends where its receiver does.)
+// The exact scene at kFiner samples a pixel each way, made when it is needed: where a mask differs,
+// a pixel is near an edge if within a pixel of its centre there is a sample of the same state, or
+// of another face. (What is thinner than a pixel has no pixel that shows both of its sides, and
+// many a shadow ends where its receiver does.)
 class Edges {
  public:
   explicit Edges(const scenes::HardCase& c) : case_(c) {}
@@ -99,10 +111,11 @@ Difference difference(const ShadowMask& mask, const ShadowMask& exact, Edges& ed
   return d;
 }
 
-void expect_exact(const Difference& d, const ShadowMask& exact, const std::string& what) {
-  EXPECT_LE(d.pixels, int(exact.state.size() / 1000)) << what;
-  EXPECT_EQ(d.far_off, 0) << what;
-}
+// near_cap and zp_plus start from polygons in the near plane whose edges are computed apart from
+// those of the sides that the graphics card clips there (Everitt and Kilgard 2002, 2.2.2): along
+// these edges single pixels may be counted twice or not at all, wherever in the picture they end.
+// Measured: 1 pixel of 43 200 in one case of 40.
+constexpr int kNearEdgePixels = 4;
 
 TEST_P(HardCases, AreTheExactMaskByEveryMethod) {
   const scenes::HardCase& c = hard();
@@ -113,29 +126,93 @@ TEST_P(HardCases, AreTheExactMaskByEveryMethod) {
   ShadowMask first;
   for (const Api api : {Api::opengl, Api::opengl_es}) {
     Stage stage = stage_of(c.scene, api);
-    for (const Count count : {Count::automatic, Count::z_fail, Count::mixed, Count::near_cap,
-                              Count::zp_plus, Count::z_pass}) {
+    for (const Count count : {Count::automatic, Count::z_fail, Count::mixed, Count::z_pass,
+                              Count::near_cap, Count::zp_plus}) {
       for (const MaskIn in : {MaskIn::stencil, MaskIn::alpha, MaskIn::screen}) {
         Method m;
         m.mask = in;
         m.count = count;
         const std::string what = (api == Api::opengl ? "OpenGL, " : "OpenGL ES, ") + describe(m);
-        const Result<ShadowMask> mask = stage.renderer.mask(camera, c.light, m);
-        if (!mask) {
-          std::printf("%-34s refused: %s: %s\n", c.name.c_str(), what.c_str(),
-                      mask.error().message.substr(0, 70).c_str());
+        FrameStats stats;
+        const Result<ShadowMask> mask = stage.renderer.mask(camera, c.light, m, &stats);
+        if (!mask) {  // z-pass: see below
+          EXPECT_TRUE(may_be_refused(count)) << what << ": " << mask.error().message;
           continue;
         }
         if (first.state.empty()) first = mask.value();
         const Difference d = difference(mask.value(), exact, edges);
-        const int n = count_different(mask.value(), first);
-        if (d.pixels > 0 || n > 0)
-          std::printf("%-34s %s: differ %d far %d from first %d\n", c.name.c_str(), what.c_str(),
-                      d.pixels, d.far_off, n);
-        expect_exact(d, exact, what);
+        if (stats.moved_lights > 0) {
+          // The mask is that of another lamp: LampOnCaster.
+          EXPECT_LE(count_different(mask.value(), first), kNearEdgePixels) << what;
+        } else if (starts_at_near_plane(count)) {
+          EXPECT_LE(count_different(mask.value(), first), kNearEdgePixels) << what;
+          EXPECT_LE(d.far_off, kNearEdgePixels) << what;
+        } else {
+          EXPECT_LE(d.pixels, int(exact.state.size() / 1000)) << what;
+          EXPECT_EQ(d.far_off, 0) << what;
+          EXPECT_EQ(count_different(mask.value(), first), 0) << what;
+        }
       }
     }
   }
+}
+
+// Volumes to infinity or to a plane beyond the scene; far plane at infinity or depth clamp.
+TEST_P(HardCases, AreTheExactMaskHoweverFarVolumesReach) {
+  const scenes::HardCase& c = hard();
+  SCOPED_TRACE(c.name + ": " + c.sentence);
+  const ShadowMask exact = exact_mask(c.scene, c.light, c.view);
+  Stage stage = stage_of(c.scene);
+  Edges edges(c);
+  const bool parallel = is_parallel(c.view);
+  for (const bool infinite_view : {true, false}) {
+    if (infinite_view && parallel) continue;
+    const Camera camera = camera_of_case(c, infinite_view);
+    for (const Count count : {Count::automatic, Count::z_fail}) {
+      Method m;
+      m.count = count;
+      m.reach = Reach::infinite;
+      const std::string what = (infinite_view ? "infinite view, " : "clamp, ") + describe(m);
+      FrameStats stats;
+      const Result<ShadowMask> mask = stage.renderer.mask(camera, c.light, m, &stats);
+      if (parallel && count == Count::z_fail && (!mask || c.light.w != 0)) {
+        ASSERT_FALSE(mask) << what;
+        EXPECT_NE(mask.error().message.find(c.light.w != 0 ? "dark cap" : "along the light"),
+                  std::string::npos)
+            << mask.error().message;
+        continue;
+      }
+      ASSERT_TRUE(mask) << what << ": " << mask.error().message;
+      if (stats.moved_lights > 0) continue;
+      const Difference d = difference(mask.value(), exact, edges);
+      EXPECT_LE(d.pixels, int(exact.state.size() / 1000)) << what;
+      EXPECT_EQ(d.far_off, 0) << what;
+    }
+  }
+}
+
+TEST_P(HardCases, AreWrongByZPassAloneWhereThePaperSaysSo) {
+  const scenes::HardCase& c = hard();
+  SCOPED_TRACE(c.name + ": " + c.sentence);
+  const Camera camera = camera_of_case(c);
+  Stage stage = stage_of(c.scene);
+  Method m;
+  m.count = Count::z_pass;
+  const Result<ShadowMask> refused = stage.renderer.mask(camera, c.light, m);
+  if (refused) {  // no caster can shade the near plane
+    EXPECT_FALSE(c.z_pass_fails);
+    return;
+  }
+  EXPECT_NE(refused.error().message.find("near clip volume"), std::string::npos)
+      << refused.error().message;
+  if (!c.z_pass_fails) return;
+  m.unchecked = true;
+  const ShadowMask exact = exact_mask(c.scene, c.light, c.view);
+  const Difference wrong = compare(stage.renderer.mask(camera, c.light, m).value(), exact);
+  EXPECT_GT(wrong.far_off, int(exact.state.size() / 100)) << "z-pass";
+  FrameStats stats;
+  stage.renderer.mask(camera, c.light, {}, &stats).value();
+  EXPECT_GT(stats.z_fail_volumes, 0) << "automatic";
 }
 
 std::string test_name(const testing::TestParamInfo<std::size_t>& of) {
@@ -146,6 +223,86 @@ std::string test_name(const testing::TestParamInfo<std::size_t>& of) {
 
 INSTANTIATE_TEST_SUITE_P(Scene, HardCases, testing::Range(std::size_t(0), cases().size()),
                          test_name);
+
+double distance_to_scene(const Scene& scene, const Vec3& p) {
+  double least = std::numeric_limits<double>::infinity();
+  const auto segment = [&](const Vec3& a, const Vec3& b) {
+    const Vec3 ab = b - a;
+    const double s = std::clamp(glm::dot(p - a, ab) / glm::dot(ab, ab), 0.0, 1.0);
+    return glm::distance(p, a + s * ab);
+  };
+  for (const Triangle& t : scene.mesh.triangles) {
+    const Vec3 &a = scene.mesh.positions[t[0]], &b = scene.mesh.positions[t[1]],
+               &c = scene.mesh.positions[t[2]];
+    const Vec3 n = glm::normalize(glm::cross(b - a, c - a));
+    if (glm::dot(glm::cross(b - a, p - a), n) >= 0 && glm::dot(glm::cross(c - b, p - b), n) >= 0 &&
+        glm::dot(glm::cross(a - c, p - c), n) >= 0) {
+      least = std::min(least, std::fabs(glm::dot(p - a, n)));
+    }
+    least = std::min({least, segment(a, b), segment(b, c), segment(c, a)});
+  }
+  return least;
+}
+
+TEST(Flight, HasNotOneWrongFrame) {
+  const scenes::Flight flight = scenes::flight(160, 120);
+  Stage stage = stage_of(flight.scene);
+  int with_z_fail = 0, without = 0;
+  std::size_t frame = 0;
+  for (const View& view : flight.views) {
+    SCOPED_TRACE("frame " + std::to_string(frame++));
+    EXPECT_GE(distance_to_scene(flight.scene, Vec3(view.eye)), scenes::kFlightRoom);
+    DepthRange range;
+    range.near_plane = scenes::kFlightRoom / 2;
+    const Camera camera = camera_of(view, range);
+    FrameStats stats;
+    const ShadowMask mask = stage.renderer.mask(camera, flight.light, {}, &stats).value();
+    ++(stats.z_fail_volumes > 0 ? with_z_fail : without);
+    const ShadowMask exact = exact_mask(flight.scene, flight.light, view);
+    scenes::HardCase c;
+    c.scene = flight.scene;
+    c.light = flight.light;
+    c.view = view;
+    Edges edges(c);
+    const Difference d = difference(mask, exact, edges);
+    EXPECT_LE(d.pixels, int(exact.state.size() / 1000));
+    EXPECT_EQ(d.far_off, 0);
+    for (const Count count : {Count::z_fail, Count::mixed}) {
+      Method m;
+      m.count = count;
+      EXPECT_EQ(count_different(stage.renderer.mask(camera, flight.light, m).value(), mask), 0)
+          << name_of(count);
+    }
+  }
+  EXPECT_EQ(frame, std::size_t(scenes::kFlightFrames));
+  EXPECT_GT(with_z_fail, 30);
+  EXPECT_GT(without, 30);
+}
+
+// A lamp on a caster is drawn as one beside it; that one's mask is exact.
+TEST(LampOnCaster, IsTheExactMaskOfALampBesideIt) {
+  for (const scenes::HardCase& c : cases()) {
+    Stage stage = stage_of(c.scene);
+    FrameStats stats;
+    const Camera camera = camera_of_case(c);
+    const ShadowMask mask = stage.renderer.mask(camera, c.light, {}, &stats).value();
+    EXPECT_EQ(stats.moved_lights > 0, c.name.find("light-on-") == 0) << c.name;
+    if (stats.moved_lights == 0) continue;
+    double size = 0;
+    const auto take = [&](const Vec3& p) {
+      size = std::max({size, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+    };
+    for (const Vec3& p : c.scene.mesh.positions) take(p);
+    bool found = false;
+    for (const double of : {size, 2.0}) {  // the ground's, the box's
+      const Light beside = c.light + Light(Vec3(1, 1.0 / 4, 1.0 / 16) * (of * 0x1p-13), 0.0);
+      const ShadowMask exact = exact_mask(c.scene, beside, c.view);
+      const Difference d = compare(mask, exact);
+      found |= d.pixels <= int(exact.state.size() / 1000) && d.far_off <= 2;
+    }
+    EXPECT_TRUE(found) << c.name;
+  }
+}
 
 }  // namespace
 }  // namespace gnomon::gl

@@ -182,9 +182,10 @@ Frame within_reach(const Frame& frame, const LightSource& light) {
   return out;
 }
 
-Result<LightPlan> plan_light(const Frame& frame, const Light& light, double radius,
+Result<LightPlan> plan_light(const Frame& frame, const Light& asked, double radius,
                              std::uint32_t number, const Method& wanted,
                              const TargetFacts& target) {
+  const Light light = clear_of_casters(frame, asked);
   const Renderer::State& state = *frame.state;
   const Camera& camera = *frame.camera;
   LightPlan plan;
@@ -219,6 +220,7 @@ Result<LightPlan> plan_light(const Frame& frame, const Light& light, double radi
     const Box3 near_box = box_of(rectangle);
     out.near = near_clip_volume(rectangle, out.light);
     const Box3 light_box{Vec3(out.light), Vec3(out.light)};
+    out.caps_in_front = culls_back_faces(frame, instance, mesh);
     out.parts.resize(mesh.parts.parts.size());
     shades[i].resize(mesh.parts.parts.size());
     for (std::size_t p = 0; p < mesh.parts.parts.size(); ++p) {

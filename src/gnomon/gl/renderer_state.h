@@ -94,6 +94,15 @@ Result<LightPlan> plan_light(const Frame& frame, const Light& light, double radi
 // The frame within the reach of a light: scissor and depth bounds.
 Frame within_reach(const Frame& frame, const LightSource& light);
 
+// The light, or, where it touches a caster, a lamp 2^-13 of the largest coordinate beside it (4 mm
+// at 30 m), on the side that the tie rule says; counted in the frame's stats.
+Light clear_of_casters(const Frame& frame, const Light& light);
+
+// Whether back faces of an instance's solid parts are left out of the picture. Their depths are not
+// there then, and at the outline of a part, where back and front are equally far to rounding, its
+// caps may come out in front: z-pass counts them like those of casters that are not seen.
+bool culls_back_faces(const Frame& frame, const InstanceSlot& instance, const GpuMesh& mesh);
+
 // Draws surfaces.
 void draw_depth(const Frame& frame, const Pass& pass);  // no colour
 void draw_flat(const Frame& frame, const Pass& pass, const glm::vec4& colour);

@@ -10,25 +10,6 @@
 namespace gnomon::gl {
 namespace {
 
-// Back faces of solid parts are left out where no such part may have the near rectangle inside.
-bool culls(const Frame& frame, const InstanceSlot& instance, const GpuMesh& mesh) {
-  if (mesh.solid_count == 0) return false;
-  const glm::dmat4 to_mesh = glm::inverse(instance.to_scene);
-  Vec3 lo(to_mesh * point(frame.camera->near_rectangle[0])), hi = lo;
-  for (const Vec3& corner : frame.camera->near_rectangle) {
-    lo = glm::min(lo, Vec3(to_mesh * point(corner)));
-    hi = glm::max(hi, Vec3(to_mesh * point(corner)));
-  }
-  for (std::size_t p = 0; p < mesh.parts.parts.size(); ++p) {
-    const Part& part = mesh.parts.parts[p];
-    if (part.winding > 0 && mesh.part_seen[p] != 0 && lo.x <= part.hi.x && part.lo.x <= hi.x &&
-        lo.y <= part.hi.y && part.lo.y <= hi.y && lo.z <= part.hi.z && part.lo.z <= hi.z) {
-      return false;
-    }
-  }
-  return true;
-}
-
 // Sets the pass again where another culling is wanted than the last time.
 class Culling {
  public:
@@ -51,6 +32,25 @@ class Culling {
 
 }  // namespace
 
+// Back faces of solid parts are left out where no such part may have the near rectangle inside.
+bool culls_back_faces(const Frame& frame, const InstanceSlot& instance, const GpuMesh& mesh) {
+  if (mesh.solid_count == 0) return false;
+  const glm::dmat4 to_mesh = glm::inverse(instance.to_scene);
+  Vec3 lo(to_mesh * point(frame.camera->near_rectangle[0])), hi = lo;
+  for (const Vec3& corner : frame.camera->near_rectangle) {
+    lo = glm::min(lo, Vec3(to_mesh * point(corner)));
+    hi = glm::max(hi, Vec3(to_mesh * point(corner)));
+  }
+  for (std::size_t p = 0; p < mesh.parts.parts.size(); ++p) {
+    const Part& part = mesh.parts.parts[p];
+    if (part.winding > 0 && mesh.part_seen[p] != 0 && lo.x <= part.hi.x && part.lo.x <= hi.x &&
+        lo.y <= part.hi.y && part.lo.y <= hi.y && lo.z <= part.hi.z && part.lo.z <= hi.z) {
+      return false;
+    }
+  }
+  return true;
+}
+
 void draw_depth(const Frame& frame, const Pass& pass) { draw_flat(frame, pass, glm::vec4(0)); }
 
 void draw_flat(const Frame& frame, const Pass& pass, const glm::vec4& colour) {
@@ -64,7 +64,7 @@ void draw_flat(const Frame& frame, const Pass& pass, const glm::vec4& colour) {
     if (!instance.alive) continue;
     const GpuMesh& mesh = frame.state->meshes[instance.mesh].gpu;
     if (mesh.surface_count == 0) continue;
-    const GLsizei solid = culls(frame, instance, mesh) ? mesh.solid_count : 0;
+    const GLsizei solid = culls_back_faces(frame, instance, mesh) ? mesh.solid_count : 0;
     set(program, "u_clip", frame.clip_of(instance));
     if (inside) set(program, "u_inside", glm::mat4(*inside * instance.to_scene));
     glBindVertexArray(mesh.surface.id());
@@ -98,7 +98,7 @@ void draw_lit(const Frame& frame, const Pass& pass, const Lighting& l) {
   for (const InstanceSlot& instance : frame.state->instances) {
     if (!instance.alive) continue;
     const GpuMesh& mesh = frame.state->meshes[instance.mesh].gpu;
-    const bool cull = culls(frame, instance, mesh);
+    const bool cull = culls_back_faces(frame, instance, mesh);
     glBindVertexArray(mesh.shaded.id());
     GLuint of_instance = 0;
     for (const MaterialRange& range : mesh.materials) {
