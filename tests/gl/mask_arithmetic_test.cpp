@@ -245,5 +245,21 @@ TEST(MaskArithmetic, MoreTeethThanHalfFloatsCountAreRefusedAndNotDrawnWrong) {
     EXPECT_EQ(floats.renderer.mask(camera, kAbove, m).value().state[2], ShadowMask::kShadow);
 }
 
+TEST(MaskArithmetic, PicturesThatTheSceneDoesNotFillAreDrawnInFloatsToo) {
+  const Scene scene = test::scene_of(boxes_on_ground());
+  Stage stage = stage_of(scene);
+  const View view = aerial();
+  const Camera camera = camera_of(view, depth_range(scene, view, true));
+  const LightSource source{Light(5, -4, 15, 1)};
+  for (const MaskIn in : {MaskIn::alpha, MaskIn::screen}) {
+    FrameOptions options;
+    options.method.mask = in;
+    FrameStats stats;
+    const Result<Image> image = stage.renderer.render(camera, {&source, 1}, options, &stats);
+    EXPECT_TRUE(image) << image.error().message;
+    EXPECT_GT(stats.method.float_bits, 0);
+  }
+}
+
 }  // namespace
 }  // namespace gnomon::gl

@@ -518,6 +518,11 @@ Result<FrameStats> Renderer::draw_mask(const Camera& camera, const Light& light,
         "A mask in the screen buffer or of lower resolution needs a framebuffer of its own: take "
         "the stencil or the alpha channel inside another renderer's framebuffer."};
   }
+  if (!has_usual_clip_space()) {
+    return Error{
+        "The depth range runs backwards, or glClipControl is not GL_LOWER_LEFT and "
+        "GL_NEGATIVE_ONE_TO_ONE: draw the depths and the mask with OpenGL's usual clip space."};
+  }
   FrameStats counted;
   const Frame frame{state_.get(), &camera, &counted};
   GLint stencil_bits = 0, alpha_bits = 0;
@@ -533,7 +538,13 @@ Result<FrameStats> Renderer::draw_mask(const Camera& camera, const Light& light,
       plan_light(frame, light, 0, 0, method, {stencil_bits != GL_NONE, alpha_bits > 0, 1});
   if (!plan) return plan.error();
   counted.method = plan.value().method;
-  const StateGuard guard(state_->support);
+  if (counted.method.float_bits > 0) {
+    return Error{
+        "Some casters are not closed and convex, or are not drawn as a whole: their alpha mask "
+        "needs "
+        "floats, which are counted in a framebuffer of our own only. Take --method stencil."};
+  }
+  const StateGuard guard(state_->support, DepthRangeOf::caller);
   const Result<LitTest> lit = draw_light_mask(frame, plan.value(), nullptr);
   if (!lit) return lit.error();
   counted.lit_at_most = lit.value().ref;
