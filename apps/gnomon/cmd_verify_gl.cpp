@@ -88,7 +88,10 @@ void note(Totals& totals, const std::string& where, const gl::Method& m, const M
       "{}: {}: {} of {} differ, {} at an edge, {} in depth, {} unexplained; {} other "
       "than the stencil",
       where, gl::describe(m), d.differ, d.samples, d.at_edge, d.in_depth, d.unexplained, other);
-  for (const std::size_t k : d.first_unexplained) text += fmt::format(" {}", k);
+  for (const MaskDifference::Unexplained& u : d.first_unexplained) {
+    text += fmt::format("; pixel {} of triangle {}, exact count {}", u.pixel, u.triangle, u.count);
+    text += u.times > 0 ? fmt::format(", {} times the rounding", u.times) : ", no rounding";
+  }
   totals.broken.push_back(text);
 }
 

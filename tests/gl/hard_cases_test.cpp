@@ -31,10 +31,10 @@ class HardCases : public testing::TestWithParam<std::size_t> {
   const scenes::HardCase& hard() const { return cases()[GetParam()]; }
 };
 
-// The exact scene at kFiner samples a pixel each way, made when it is needed: where a mask differs, a
-// pixel is near an edge if within a pixel of its centre there is a sample of the same state, or of
-// another face. (What is thinner than a pixel has no pixel that shows both of its sides, and many a
-// shadow ends where its receiver does.)
+// The exact scene at kFiner samples a pixel each way, made when it is needed: where a mask differs,
+// a pixel is near an edge if within a pixel of its centre there is a sample of the same state, or
+// of another face. (What is thinner than a pixel has no pixel that shows both of its sides, and
+// many a shadow ends where its receiver does.)
 class Edges {
  public:
   explicit Edges(const scenes::HardCase& c) : case_(c) {}
