@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <tuple>
 
 #include <fmt/format.h>
 #include <gnomon/gl/context.h>
@@ -102,8 +103,10 @@ void verify_light(const Stage& stage, const std::string& where, const Cameras& c
   known.parallel_view = is_parallel(view);
   known.directional_light = exact.light.w == 0;
   known.infinite_view = cameras.infinite.has_value();
-  // One mask of the stencil for each camera and reach, which the others must equal.
-  std::map<std::pair<const gl::Camera*, gl::Reach>, std::pair<ShadowMask, MaskDifference>> stencil;
+  // One mask of the stencil for each geometry, which the others must equal: camera, reach, and how
+  // sides are sent (strips split them along the other diagonal).
+  using Geometry = std::tuple<const gl::Camera*, gl::Reach, gl::Primitives>;
+  std::map<Geometry, std::pair<ShadowMask, MaskDifference>> stencil;
   gl::MethodPairs pairs(known, stage.renderer.capabilities(), stage.o.all);
   const auto compare = [&](const gl::Method& m, const ShadowMask& mask) {
     const gl::MaskBound b = gl::bound_of(m);
@@ -135,7 +138,7 @@ void verify_light(const Stage& stage, const std::string& where, const Cameras& c
     }
     pairs.drawn();
     ++totals.combinations;
-    const std::pair<const gl::Camera*, gl::Reach> same{&camera, m.reach};
+    const Geometry same{&camera, m.reach, m.primitives};
     if (!stencil.contains(same) && !gl::bound_of(m).same_as_stencil) {
       note(totals, where, m, compare(m, drawn.value()), 0);
       continue;
@@ -144,6 +147,7 @@ void verify_light(const Stage& stage, const std::string& where, const Cameras& c
       gl::Method base;
       base.far_plane = m.far_plane;
       base.reach = m.reach;
+      base.primitives = m.primitives;
       const Result<ShadowMask> usual = stage.renderer.mask(camera, exact.light, base);
       if (!usual) ++totals.refused[usual.error().message];
       // Where the usual way is refused, the first that is not stands for it.

@@ -124,7 +124,7 @@ TEST(Multisampling, MaskIsTheLargerPartOfThePixel) {
                      ? 1
                      : 0;
       }
-      EXPECT_GT(edges, 100);
+      EXPECT_GT(edges, 50);
       // Corners and slivers in a pixel are no half planes.
       EXPECT_LE(wrong, edges / 20) << describe(method);
     }

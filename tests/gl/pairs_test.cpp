@@ -8,6 +8,7 @@
 #endif
 
 #include <map>
+#include <tuple>
 
 #include "gl_test.h"
 
@@ -36,7 +37,7 @@ Tried try_pairs(const Scene& scene, const View& view, const std::vector<Light>& 
     known.directional_light = light.w == 0;
     known.infinite_view = !known.parallel_view;
     MethodPairs pairs(known, stage.renderer.capabilities(), false);
-    std::map<std::pair<FarPlane, Reach>, ShadowMask> stencil;
+    std::map<std::tuple<FarPlane, Reach, Primitives>, ShadowMask> stencil;
     while (const std::optional<Method> m = pairs.next()) {
       const Camera& camera = m->far_plane == FarPlane::clamp ? clamped : infinite;
       const Result<ShadowMask> mask = stage.renderer.mask(camera, light, *m);
@@ -55,11 +56,12 @@ Tried try_pairs(const Scene& scene, const View& view, const std::vector<Light>& 
       EXPECT_TRUE(b.unexplained || d.unexplained == 0) << describe(*m) << ": " << d.unexplained;
       tried.difference += d;
       if (!b.same_as_stencil) continue;
-      auto& first = stencil[{m->far_plane, m->reach}];
+      auto& first = stencil[{m->far_plane, m->reach, m->primitives}];
       if (first.state.empty()) {
         Method base;
         base.far_plane = m->far_plane;
         base.reach = m->reach;
+        base.primitives = m->primitives;
         first = stage.renderer.mask(camera, light, base).value();
       }
       EXPECT_EQ(differing_pixels(exact, mask.value(), first), 0u) << describe(*m);
