@@ -1,6 +1,7 @@
 #include <gnomon/shadow/compare_masks.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -71,13 +72,15 @@ Vec4 plane_through(const Vec4& a, const Vec4& b, const Vec4& c) {
 
 struct Depths {
   const View& view;
-  Vec4 z, w;     // rows of the matrix to clip space
+  glm::dmat4 rows;  // of the matrix to clip space
+  Vec4 z, w;
   double steps;  // per unit of z / w
 
   Depths(const View& v, const DepthBuffer& buffer)
       : view(v),
-        z(glm::transpose(buffer.clip)[2]),
-        w(glm::transpose(buffer.clip)[3]),
+        rows(glm::transpose(buffer.clip)),
+        z(rows[2]),
+        w(rows[3]),
         steps(buffer.steps / 2) {}
 
   // Where the ray of the pixel point q meets the plane, in steps; NaN where it does not.
@@ -89,6 +92,28 @@ struct Depths {
   double slope(const Vec4& plane, const Vec4& q) const {
     const double here = at(plane, q);
     return std::fabs(at(plane, q + view.right) - here) + std::fabs(at(plane, q + view.down) - here);
+  }
+  // A triangle that passes within `pixels` of the pixel's centre, no deeper than `depth`. False for
+  // those that reach behind the eye.
+  bool passes(const std::array<Vec4, 3>& corners, int column, int row, double pixels,
+              double depth) const {
+    std::array<Vec2, 3> at;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec4 c = corners[k] * rows;  // row times matrix of rows: clip space
+      if (!(c.w > 0)) return false;
+      at[k] = Vec2((c.x / c.w + 1) / 2 * view.width - column - 0.5,
+                   (1 - c.y / c.w) / 2 * view.height - row - 0.5);
+      nearest = std::min(nearest, c.z / c.w * steps);
+    }
+    if (nearest > depth) return false;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec2 a = at[k], d = at[(k + 1) % 3] - a;
+      const double length2 = glm::dot(d, d);
+      const double s = length2 > 0 ? std::clamp(-glm::dot(a, d) / length2, 0.0, 1.0) : 0.0;
+      if (glm::length(a + s * d) <= pixels) return true;
+    }
+    return false;
   }
 };
 
@@ -142,8 +167,12 @@ Reach reach_of(const ExactAnswers& a, std::size_t pixel, const Depths& depths,
   }
   for (std::uint32_t t = 0; t < scene.mesh.triangles.size() && !reach.other_surface; ++t) {
     const Triangle& o = scene.mesh.triangles[t];
-    reach.other_surface = t != seen && receives(scene, t) &&
-                          close_by(vertex(o[0]), vertex(o[1]), vertex(o[2]), distance);
+    if (t == seen || !receives(scene, t)) continue;
+    const std::array<Vec4, 3> corners{vertex(o[0]), vertex(o[1]), vertex(o[2])};
+    reach.other_surface =
+        close_by(corners[0], corners[1], corners[2], distance) ||
+        depths.passes(corners, static_cast<int>(pixel) % v.width, static_cast<int>(pixel) / v.width,
+                      rounding.pixels, here + rounding.steps);
   }
   return reach;
 }

@@ -73,7 +73,8 @@ struct MaskDifference {
   // Of these: the answer is exact somewhere within Rounding::edge pixels.
   std::uint64_t at_edge = 0;
   // Of the others: sides so close to the sample that counting them on the other side of it gives
-  // the answer, or another surface so close that it may be the one that is seen.
+  // the answer, or another surface so close, in depth or with its rim on the screen, that it may be
+  // the one that is seen.
   std::uint64_t in_depth = 0;
   std::uint64_t unexplained = 0;
   struct Unexplained {
