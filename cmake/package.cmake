@@ -26,6 +26,9 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)  # libraries: what dpkg-shlibdeps reads from the program
 # Read at run time: CRS database, time zones, letters of maps.
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "proj-data, tzdata, fonts-dejavu-core")
+if(GNOMON_GL)  # opened at run time by `gnomon render`
+  set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "libegl1, libgl1-mesa-dri")
+endif()
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "exact shadows from 3D models
 Computes how long every spot is in shadow, from CityJSON, OBJ and other models
 to a GeoTIFF and a map; every sample equals exact arithmetic. Needs no
@@ -42,6 +45,9 @@ set(recommends)
 if(GNOMON_TRACE)
   list(APPEND recommends libembree-dev)
 endif()
+if(GNOMON_GL)
+  list(APPEND recommends libepoxy-dev)
+endif()
 if(GNOMON_IO)
   list(APPEND recommends libassimp-dev libfmt-dev libgdal-dev libgeos-dev libpango1.0-dev libproj-dev libtinyobjloader-dev
     nlohmann-json3-dev pkg-config)
@@ -50,6 +56,6 @@ list(JOIN depends ", " CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS)
 list(JOIN recommends ", " CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS)
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "exact shadows from 3D models: C++ library
 Headers, static libraries and the CMake package gnomon with its components
-core, io (readers and writers) and trace (oracles). The component core needs
-none of the recommended packages; io and trace need them.")
+core, io (readers and writers), trace (oracles) and gl (OpenGL renderer). The
+component core needs none of the recommended packages; the others need them.")
 include(CPack)

@@ -66,7 +66,7 @@ void draw(const scenes::HardCase& c, const std::filesystem::path& folder) {
   gl::FrameOptions options;
   gl::FrameStats stats;
   write("picture", picture_of(take(renderer.render(camera, {&light, 1}, options, &stats))));
-  options.show = gl::Show::volumes;
+  options.overlay.volumes = true;
   write("volumes", picture_of(take(renderer.render(camera, {&light, 1}, options))));
   const ShadowMask exact = cast_shadows(c.scene, c.light, c.view);
   write("mask", picture_of(take(renderer.mask(camera, c.light, {})), exact));

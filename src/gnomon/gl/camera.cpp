@@ -59,7 +59,9 @@ void complete(Camera& c) {
   const Vec4 eye = back * Vec4(0, 0, -1, 0);  // a parallel view's eye is a direction
   c.eye = std::fabs(eye.w) > 1e-12 * glm::length(Vec3(eye)) ? eye / eye.w
                                                             : direction(glm::normalize(Vec3(eye)));
-  constexpr double corners[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+  // A pixel more on each side, so that the rounding of the matrix to float leaves nothing outside.
+  const double x = 1 + 2.0 / c.width, y = 1 + 2.0 / c.height;
+  const double corners[4][2] = {{-x, -y}, {x, -y}, {x, y}, {-x, y}};
   for (int i = 0; i < 4; ++i) {
     const Vec4 p = back * Vec4(corners[i][0], corners[i][1], -1, 1);
     c.near_rectangle[i] = Vec3(p) / p.w;

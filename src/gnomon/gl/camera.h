@@ -19,7 +19,8 @@ namespace gnomon::gl {
 struct Camera {
   glm::dmat4 clip{1.0};  // scene coordinates, homogeneous, to clip space; x right, y up, z away
   Vec4 eye;              // homogeneous; w = 0: direction towards the eye of a parallel view
-  std::array<Vec3, 4> near_rectangle{};  // lower left, lower right, upper right, upper left
+  std::array<Vec3, 4> near_rectangle{};  // lower left, lower right, upper
+                                         // right, upper left; a pixel beyond the picture
   bool infinite = false;      // the far plane is at infinity; otherwise volumes need depth clamp
   int width = 0, height = 0;  // pixels
   // To be looked at: nothing outside the frustum of another camera, whose matrix this is, is drawn.

@@ -54,6 +54,7 @@ struct Builder {
 
   void append_part(std::uint32_t p) {
     const PartPlan& plan = v.plan[p];
+    if (plan.left_out) return;
     const Part& part = m.parts.parts[p];
     if (plan.by_polygon) {
       for (const std::uint32_t t : part.triangles) {
@@ -146,7 +147,7 @@ bool update_sides(CasterVolumes& v, const GpuMesh& m, std::uint64_t mesh_version
   for (std::size_t p = 0; p < plan.size(); ++p) {
     regions |= plan[p].by_region;
     for (const std::uint32_t t : m.parts.parts[p].triangles) {
-      casting[t] = casts(plan[p].casting, v.light_side[t]) ? 1 : 0;
+      casting[t] = !plan[p].left_out && casts(plan[p].casting, v.light_side[t]) ? 1 : 0;
       if (plan[p].by_region) in_region[t] = casting[t];
     }
   }
@@ -156,6 +157,7 @@ bool update_sides(CasterVolumes& v, const GpuMesh& m, std::uint64_t mesh_version
   v.layers = 0;
   for (std::size_t p = 0; p < plan.size(); ++p) {
     const Part& part = m.parts.parts[p];
+    if (plan[p].left_out) continue;
     if (part.convex && plan[p].casting != Casting::all_triangles) {
       ++v.layers;
     } else {
@@ -175,7 +177,10 @@ bool update_sides(CasterVolumes& v, const GpuMesh& m, std::uint64_t mesh_version
 
 bool update_lists(CasterVolumes& v, const GpuMesh& m, const Method& method, const NearClip& near,
                   const glm::mat4& project, std::uint32_t most_layers, bool sides_changed) {
-  const bool one_point = v.light.w == 0 && project[0][0] == 0.0f;
+  // Not so of a bounding plane across x, which leaves [0][0] at 0 too.
+  const glm::vec4 none(0.0f);
+  const bool one_point =
+      v.light.w == 0 && project[0] == none && project[1] == none && project[2] == none;
   std::vector<std::uint8_t> region_z_fail(v.regions.size());
   for (std::uint32_t r = 0; r < v.regions.size(); ++r)
     region_z_fail[r] = may_any_shade_near(near, m.mesh, v.regions.triangles_of(r)) ? 1 : 0;

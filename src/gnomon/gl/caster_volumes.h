@@ -32,6 +32,7 @@ inline constexpr double kGrazing = 1.0 / 256;
 struct PartPlan {
   bool z_fail = false;
   bool by_polygon = false;
+  bool left_out = false;   // it cannot shade what the light reaches
   bool by_region = false;  // each connected lit region decides for itself between z-pass and z-fail
   Casting casting = Casting::all_triangles;
   bool operator==(const PartPlan&) const = default;
@@ -50,10 +51,10 @@ struct CasterVolumes {
   std::vector<std::uint8_t> region_z_fail;  // per region
 
   std::vector<std::int8_t> light_side;  // per triangle
-  bool grazed = false;  // the plane of some receiving triangle nearly holds the light
-  std::vector<std::uint8_t> casting;    // per triangle: it counts
-  LitRegions regions;                   // of parts by region
-  int layers = 0;                       // no ray from the light crosses more casting triangles
+  bool grazed = false;                // the plane of some receiving triangle nearly holds the light
+  std::vector<std::uint8_t> casting;  // per triangle: it counts
+  LitRegions regions;                 // of parts by region
+  int layers = 0;                     // no ray from the light crosses more casting triangles
 
   VolumeLists lists;                                   // z-fail volumes first
   std::size_t z_fail_volumes = 0;                      // of lists.volumes, the first ones

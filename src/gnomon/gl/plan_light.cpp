@@ -49,6 +49,7 @@ bool in_near_plane(const Camera& camera, const Light& light) {
   return std::fabs(glm::dot(plane, light)) <= 0x1p-12 * size;
 }
 
+constexpr double kReachSlack = 1e-6;   // of a radius: far above rounding, far below a pixel
 constexpr double kLarge = 16777216.0;  // "Accelerated Stencil Shadow Extrusion": LARGE
 // How far beyond everything that is seen the bounding plane lies: this share of the scene's
 // diagonal, and so many steps of the depth buffer at the farthest of it.
@@ -146,8 +147,44 @@ glm::mat4 projection(const Light& light, const Method& m, const std::optional<Ve
 
 }  // namespace
 
-Result<LightPlan> plan_light(const Frame& frame, const Light& light, std::uint32_t number,
-                             const Method& wanted, const TargetFacts& target) {
+Frame within_reach(const Frame& frame, const LightSource& light) {
+  if (light.light.w == 0 || !(light.radius > 0)) return frame;
+  const Camera& camera = *frame.camera;
+  const Vec3 at = Vec3(light.light) / light.light.w;
+  glm::dvec3 lo(1.0), hi(-1.0);
+  for (int i = 0; i < 8; ++i) {
+    const Vec3 d((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1, (i & 4) != 0 ? 1 : -1);
+    const Vec4 p = camera.clip * point(at + light.radius * d);
+    if (!(p.w > 0)) return frame;  // the ball's box meets the eye's plane
+    lo = i == 0 ? glm::dvec3(p) / p.w : glm::min(lo, glm::dvec3(p) / p.w);
+    hi = i == 0 ? glm::dvec3(p) / p.w : glm::max(hi, glm::dvec3(p) / p.w);
+  }
+  Frame out = frame;
+  // A pixel more on each side for rounding.
+  const auto pixels = [](double x, int size) {
+    return std::clamp((x + 1) / 2 * size, -1.0, size + 1.0);
+  };
+  const Rect whole = frame.scissor.value_or(Rect{0, 0, camera.width, camera.height});
+  Rect r;
+  r.x = std::max(whole.x, static_cast<int>(std::floor(pixels(lo.x, camera.width))) - 1);
+  r.y = std::max(whole.y, static_cast<int>(std::floor(pixels(lo.y, camera.height))) - 1);
+  r.width =
+      std::min(whole.x + whole.width, static_cast<int>(std::ceil(pixels(hi.x, camera.width))) + 1) -
+      r.x;
+  r.height = std::min(whole.y + whole.height,
+                      static_cast<int>(std::ceil(pixels(hi.y, camera.height))) + 1) -
+             r.y;
+  if (r.width <= 0 || r.height <= 0) r = Rect{0, 0, 0, 0};
+  out.scissor = r;
+  constexpr double kSteps = 0x1p-22;  // a few steps of 24 bits
+  out.depth_bounds = {std::clamp(lo.z / 2 + 0.5 - kSteps, 0.0, 1.0),
+                      std::clamp(hi.z / 2 + 0.5 + kSteps, 0.0, 1.0)};
+  return out;
+}
+
+Result<LightPlan> plan_light(const Frame& frame, const Light& light, double radius,
+                             std::uint32_t number, const Method& wanted,
+                             const TargetFacts& target) {
   const Renderer::State& state = *frame.state;
   const Camera& camera = *frame.camera;
   LightPlan plan;
@@ -191,6 +228,12 @@ Result<LightPlan> plan_light(const Frame& frame, const Light& light, std::uint32
                      may_any_shade_near(out.near, mesh.mesh, part.triangles);
       if (shades[i][p]) s.near_shaded = true;
       if (mesh.part_seen[p] == 0) out.caps_in_front = true;
+      // What a light of a radius cannot reach shades nothing that it reaches.
+      const double scale = std::cbrt(std::fabs(glm::determinant(glm::dmat3(instance.to_scene))));
+      pp.left_out =
+          radius > 0 && light.w != 0 &&
+          glm::distance(Vec3(out.light), glm::clamp(Vec3(out.light), part.lo, part.hi)) * scale >
+              radius * (1 + kReachSlack);
       // A closed surface that is drawn as a whole: everything seen lies outside it, as does the
       // light, so half of its triangles count (docs/renderer.md).
       const bool half = part.closed && mesh.part_seen[p] != 0 &&

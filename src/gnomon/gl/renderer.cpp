@@ -143,10 +143,11 @@ void bind(const Target& target) {
 }
 
 // Each light adds its part where it is not shadowed (Everitt and Kilgard, 3.3).
-Result<bool> add_lights(const Frame& frame, const Target& picture,
+Result<bool> add_lights(const Frame& whole, const Target& picture,
                         std::span<const LightSource> lights, std::span<const LightPlan> plans) {
   std::optional<Target> screen;
   for (std::size_t i = 0; i < lights.size(); ++i) {
+    const Frame frame = within_reach(whole, lights[i]);
     const LightPlan& plan = plans[i];
     const Method& m = plan.method;
     Lighting lighting;
@@ -373,8 +374,8 @@ Result<FrameStats> Renderer::draw(const Camera& camera, std::span<const LightSou
   counted.method = wanted;
   std::vector<LightPlan> plans;
   for (std::size_t i = 0; i < lights.size() && wanted.shadows != Shadows::none; ++i) {
-    Result<LightPlan> plan =
-        plan_light(frame, lights[i].light, static_cast<std::uint32_t>(i), wanted, facts);
+    Result<LightPlan> plan = plan_light(frame, lights[i].light, lights[i].radius,
+                                        static_cast<std::uint32_t>(i), wanted, facts);
     if (!plan) return plan.error();
     plans.push_back(std::move(plan).value());
   }
@@ -400,12 +401,13 @@ Result<FrameStats> Renderer::draw(const Camera& camera, std::span<const LightSou
     all.ambient = options.ambient;
     all.emission = true;
     draw_lit(frame, first_pass(true), all);
-    const Result<LitTest> lit = draw_light_mask(frame, plans.front(), &picture);
+    const Frame reached = within_reach(frame, lights.front());
+    const Result<LitTest> lit = draw_light_mask(reached, plans.front(), &picture);
     if (!lit) return lit.error();
     Pass restore = colour_pass(GL_EQUAL);
     draw_where_shadowed(restore, lit.value());
     all.light = nullptr;
-    draw_lit(frame, restore, all);
+    draw_lit(reached, restore, all);
   } else if (shadows == Shadows::lights) {
     Lighting ambient;
     ambient.ambient = options.ambient;
@@ -460,7 +462,7 @@ Result<ShadowMask> Renderer::mask(const Camera& camera, const Light& light, cons
   counted = {};
   const StateGuard guard(state_->support);
   const Frame frame{state_.get(), &camera, &counted};
-  Result<LightPlan> planned = plan_light(frame, light, 0, method, {});
+  Result<LightPlan> planned = plan_light(frame, light, 0, 0, method, {});
   if (!planned) return planned.error();
   const LightPlan& plan = planned.value();
   const Method& m = counted.method = plan.method;
@@ -527,7 +529,7 @@ Result<FrameStats> Renderer::draw_mask(const Camera& camera, const Light& light,
                                         bound == 0 ? GL_BACK_LEFT : GL_COLOR_ATTACHMENT0,
                                         GL_FRAMEBUFFER_ATTACHMENT_ALPHA_SIZE, &alpha_bits);
   Result<LightPlan> plan =
-      plan_light(frame, light, 0, method, {stencil_bits != GL_NONE, alpha_bits > 0, 1});
+      plan_light(frame, light, 0, 0, method, {stencil_bits != GL_NONE, alpha_bits > 0, 1});
   if (!plan) return plan.error();
   counted.method = plan.value().method;
   const StateGuard guard(state_->support);

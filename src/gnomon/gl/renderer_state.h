@@ -1,6 +1,7 @@
 // What a Renderer owns, and how its files draw with it. Internal to this room.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -49,8 +50,9 @@ struct Frame {
   const Camera* camera = nullptr;
   FrameStats* stats = nullptr;
 
-  std::optional<Rect> scissor{};         // outside it nothing is seen
-  mutable std::optional<int> stencil{};  // what the whole stencil is known to hold
+  std::optional<Rect> scissor{};                        // outside it nothing is seen
+  std::optional<std::array<double, 2>> depth_bounds{};  // likewise, in 0 .. 1
+  mutable std::optional<int> stencil{};                 // what the whole stencil is known to hold
 
   glm::mat4 clip_of(const InstanceSlot& instance) const {
     return glm::mat4(camera->clip * instance.to_scene);
@@ -60,6 +62,7 @@ struct Frame {
 // The pass, inside the frame's scissor.
 inline void apply(Pass pass, const Frame& frame) {
   if (!pass.scissor) pass.scissor = frame.scissor;
+  if (!pass.depth_bounds) pass.depth_bounds = frame.depth_bounds;
   apply(pass, frame.state->support);
 }
 
@@ -84,8 +87,12 @@ struct TargetFacts {
   bool stencil = true, alpha = true;
   int lights = 1;
 };
-Result<LightPlan> plan_light(const Frame& frame, const Light& light, std::uint32_t number,
-                             const Method& wanted, const TargetFacts& target);
+// `radius`: the light ends there, metres; 0: it does not end.
+Result<LightPlan> plan_light(const Frame& frame, const Light& light, double radius,
+                             std::uint32_t number, const Method& wanted, const TargetFacts& target);
+
+// The frame within the reach of a light: scissor and depth bounds.
+Frame within_reach(const Frame& frame, const LightSource& light);
 
 // Draws surfaces.
 void draw_depth(const Frame& frame, const Pass& pass);  // no colour
