@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
 constexpr double kFloorHalf = 30;  // metres
-constexpr double kPitch = 4;       // from one body to the next
-constexpr int kAcross = 6;         // and as many deep
+constexpr double kPitch = 3;       // from one body to the next
+constexpr int kAcross = 8;         // and as many deep
 
 // Whole multiples of 2^-10 m: floats hold them exactly, so that faces that are level, upright or
 // parallelograms stay plane.
@@ -95,7 +95,14 @@ struct Builder {
   void prism(const Vec3& at, const std::vector<Vec2>& outline, const Vec2& centre, const Vec3& u,
              const Vec3& v, const Vec3& w) {
     const auto n = static_cast<std::uint32_t>(outline.size());
-    const auto place = [&](const Vec2& p) { return at + snapped(u * p.x + v * p.y); };
+    // Products of few bits are exact: the ends are plane, and lit or dark as a whole.
+    const auto few_bits = [](double x) { return std::round(x * 64) / 64; };
+    const auto few = [&](const Vec3& p) {
+      return Vec3(few_bits(p.x), few_bits(p.y), few_bits(p.z));
+    };
+    const auto place = [&](const Vec2& p) {
+      return at + few(u) * few_bits(p.x) + few(v) * few_bits(p.y);
+    };
     const std::uint32_t low = vertex(place(centre)), high = vertex(place(centre) + w);
     const std::uint32_t k = high + 1;
     for (const Vec2& p : outline) {
@@ -138,12 +145,12 @@ std::vector<Vec2> circle(const Vec2& middle, double radius, int n) {
 Vec3 place_of(int k, Random& random) {
   const double x = (k % kAcross - (kAcross - 1) / 2.0) * kPitch + random.between(-0.8, 0.8);
   const double y = (k / kAcross - (kAcross - 1) / 2.0) * kPitch + random.between(-0.8, 0.8);
-  const double z = random.between(0, 1.2);
+  const double z = random.between(0.5, 5);
   return snapped(Vec3(x, y, random.between(0, 1) < 0.5 ? 0.0 : z));
 }
 
 PaperScene with_the_papers_camera(std::string name, std::string what, Scene scene) {
-  return {std::move(name), std::move(what), std::move(scene), {3, -21, 9}, {0, -1, 0}, 0.75};
+  return {std::move(name), std::move(what), std::move(scene), {1, -16, 4}, {0, -1, 1.5}, 0.75};
 }
 
 }  // namespace
@@ -183,7 +190,7 @@ PaperScene convex_bodies() {
         b.turned(at, {{0, 0}, {size, 0}, {0, height}}, 32);
     }
   }
-  return with_the_papers_camera("convex", "36 small convex bodies over a floor", b.finished());
+  return with_the_papers_camera("convex", "64 small convex bodies over a floor", b.finished());
 }
 
 PaperScene concave_bodies() {
@@ -227,7 +234,7 @@ PaperScene concave_bodies() {
       }
     }
   }
-  return with_the_papers_camera("concave", "36 rings, gears, stairs and L-shaped houses",
+  return with_the_papers_camera("concave", "64 rings, gears, stairs and L-shaped houses",
                                 b.finished());
 }
 
@@ -265,7 +272,7 @@ PaperScene figures_in_a_room() {
 
 Lamp lamp_on_its_round(double phase) {
   const double a = kTurn * phase;
-  return {{15 * std::sin(a), -15 * std::cos(a), 6.5 + 2.5 * std::cos(a)}, {0.8, 0.8, 0.8}};
+  return {{14 * std::sin(a), -14 * std::cos(a), 5.25 + 3.25 * std::cos(a)}, {0.8, 0.8, 0.8}};
 }
 
 std::vector<Lamp> lamps_of_the_room(int count, double phase) {

@@ -29,8 +29,8 @@ View view_of(const PaperScene& scene, int width, int height);
 // a scene, shown with a shadow mask of full and of half resolution. All that the text says: convex
 // bodies take one volume each; Figure 3 has a cylinder and a rectangle over a ground floor; without
 // shadows 256 and 512 pixels squared take the same time (90 and 89 frames a second), so the scene
-// is bound by its triangles there, not by pixels. Here: 36 small convex bodies (cylinders, tilted
-// plates, spheres, cones) standing on a floor or above it, 4 526 triangles.
+// is bound by its triangles there, not by pixels. Here: 64 small convex bodies (cylinders, tilted
+// plates, spheres, cones) standing on a floor or above it, 8 386 triangles.
 PaperScene convex_bodies();
 
 // The same floor, camera and lamp with bodies that a view ray enters more than once: rings, gears,

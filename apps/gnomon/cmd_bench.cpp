@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include <time.h>
+
 #include <fmt/format.h>
 #include <gnomon/gl/context.h>
 #include <gnomon/gl/renderer.h>
@@ -41,8 +43,9 @@ struct Way {
   gl::FrameOptions options;
   gl::Renderer renderer;
   int lights = 1;
-  gl::FrameStats stats{};         // of the last frame
-  std::vector<double> seconds{};  // per frame of the animation, the median of the rounds
+  gl::FrameStats stats{};  // of the last frame
+  // Per frame of the animation, the median of the rounds: by the clock, and of all processors.
+  std::vector<double> seconds{}, processor_seconds{};
 };
 
 std::vector<gl::LightSource> lights_of(const std::vector<scenes::Lamp>& lamps) {
@@ -51,13 +54,20 @@ std::vector<gl::LightSource> lights_of(const std::vector<scenes::Lamp>& lamps) {
   return out;
 }
 
+// Of all threads of the program, a software driver's among them.
+double processor_seconds() {
+  timespec t{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
+}
+
 using Lamps = std::vector<scenes::Lamp> (*)(int count, double phase);
 
 // Frame i of each way in turn, then frame i + 1: what else the machine does meets all alike.
 void measure(std::vector<Way>& ways, const gl::Camera& camera, Lamps lamps, const Options& o,
              ProgressBar& bar, double from, double to) {
-  std::vector<std::vector<std::vector<double>>> seconds(
-      ways.size(), std::vector<std::vector<double>>(std::size_t(o.frames)));
+  using PerFrame = std::vector<std::vector<double>>;
+  std::vector<PerFrame> seconds(ways.size(), PerFrame(std::size_t(o.frames))), processor = seconds;
   const auto draw = [&](Way& way, double phase) {
     way.stats = take(way.renderer.draw(camera, lights_of(lamps(way.lights, phase)), way.options));
     way.renderer.finish();
@@ -69,9 +79,11 @@ void measure(std::vector<Way>& ways, const gl::Camera& camera, Lamps lamps, cons
   for (int round = 0; round < o.rounds; ++round) {
     for (int i = 0; i < o.frames; ++i) {
       for (std::size_t w = 0; w < ways.size(); ++w) {
+        const double before = processor_seconds();
         const bench::Watch watch;
         draw(ways[w], double(i) / o.frames);
         seconds[w][std::size_t(i)].push_back(watch.seconds());
+        processor[w][std::size_t(i)].push_back(processor_seconds() - before);
       }
       bar.show(from + (to - from) * (round * o.frames + i + 1) / steps);
     }
@@ -79,6 +91,8 @@ void measure(std::vector<Way>& ways, const gl::Camera& camera, Lamps lamps, cons
   for (std::size_t w = 0; w < ways.size(); ++w) {
     for (const std::vector<double>& of_frame : seconds[w])
       ways[w].seconds.push_back(bench::median(of_frame));
+    for (const std::vector<double>& of_frame : processor[w])
+      ways[w].processor_seconds.push_back(bench::median(of_frame));
   }
 }
 
@@ -160,12 +174,19 @@ const Way& way_named(const std::vector<Way>& ways, const std::string& name) {
 }
 
 std::string what_a_frame_is(const std::vector<Way>& ways) {
-  std::string text = "\nWhat a frame of each is (the last of the animation):\n\n" +
-                     header("column", {"passes", "rectangles", "other rectangles", "volumes",
-                                       "draws of volumes", "mask"});
+  std::string text =
+      "\nWhat a frame of each is (draws: of the animation's last; processor time: of all "
+      "threads, which is all work where the driver is software):\n\n" +
+      header("column", {"passes", "rectangles", "other rectangles", "volumes", "draws of volumes",
+                        "mask", "processor ms, mean", "most"});
   for (const Way& way : ways) {
     const gl::FrameStats& s = way.stats;
     const gl::Method& m = s.method;
+    double sum = 0, most = 0;
+    for (const double seconds : way.processor_seconds) {
+      sum += seconds;
+      most = std::max(most, seconds);
+    }
     text += row(way.name, {fmt::format("{}", s.passes), fmt::format("{}", s.rectangles),
                            fmt::format("{}", s.other_rectangles),
                            fmt::format("{}", s.z_pass_volumes + s.z_fail_volumes),
@@ -173,7 +194,9 @@ std::string what_a_frame_is(const std::vector<Way>& ways) {
                            m.shadows == gl::Shadows::none  ? "none"
                            : m.mask == gl::MaskIn::stencil ? "8-bit stencil"
                            : m.float_bits > 0 ? fmt::format("{}-bit floats", m.float_bits)
-                                              : "8 bits a channel"});
+                                              : "8 bits a channel",
+                           fmt::format("{:.1f}", 1000 * sum / double(way.processor_seconds.size())),
+                           fmt::format("{:.1f}", 1000 * most)});
   }
   return text;
 }
@@ -325,7 +348,7 @@ void run(const Options& o) {
       "draw frame 2, and so on, {} times over. A frame's time is the median of its {}; the mean is "
       "the number of frames over the sum of their times, the minimum that of the slowest frame.\n\n"
       "Shadows are attenuated (one lamp) or light by light (several); masks by {}, faces counted "
-      "{}; \"stencil buffer\" draws volumes twice with face culling, as the paper did, "
+      "{}, {} reach; \"stencil buffer\" draws volumes twice with face culling, as the paper did, "
       "\"two-sided\" "
       "once; half and quarter are of the alpha buffer. Paper: GeForce2 MX, AMD 800 MHz "
       "(Roettger, Irion, Ertl, Table 2); GeForce4 Ti 4600 (Everitt, Kilgard, Figure 4). The "
@@ -333,7 +356,8 @@ void run(const Options& o) {
       "scenes are not published; scenes/paper_scenes.h says what is known of them and what stands "
       "in for them.\n",
       bench::to_text(bench::this_machine()), gl::describe(capabilities), o.frames, o.rounds,
-      o.rounds, gl::name_of(o.method.arithmetic), gl::name_of(o.method.count));
+      o.rounds, gl::name_of(o.method.arithmetic), gl::name_of(o.method.count),
+      gl::name_of(o.method.reach));
   {
     ProgressBar bar("bench paper", o.common.quiet);
     const double share = 1.0 / double(o.scenes.size());
@@ -361,6 +385,7 @@ void run(const Options& o) {
 void add_bench(CLI::App& app) {
   const auto options = std::make_shared<Options>();
   Options& o = *options;
+  o.method.reach = gl::Reach::infinite;  // as the papers have it
   CLI::App* bench = app.add_subcommand("bench", "How long this machine takes");
   bench->require_subcommand(1);
   CLI::App* command = bench->add_subcommand(

@@ -177,7 +177,10 @@ bool update_sides(CasterVolumes& v, const GpuMesh& m, std::uint64_t mesh_version
 
 bool update_lists(CasterVolumes& v, const GpuMesh& m, const Method& method, const NearClip& near,
                   const glm::mat4& project, std::uint32_t most_layers, bool sides_changed) {
-  const bool one_point = v.light.w == 0 && project[0][0] == 0.0f;
+  // Not so of a bounding plane across x, which leaves [0][0] at 0 too.
+  const glm::vec4 none(0.0f);
+  const bool one_point =
+      v.light.w == 0 && project[0] == none && project[1] == none && project[2] == none;
   std::vector<std::uint8_t> region_z_fail(v.regions.size());
   for (std::uint32_t r = 0; r < v.regions.size(); ++r)
     region_z_fail[r] = may_any_shade_near(near, m.mesh, v.regions.triangles_of(r)) ? 1 : 0;

@@ -247,7 +247,9 @@ bool starts_at_near_plane(const Method& m) {
 Pass stencil_pass(const Method& m, bool grouped, bool z_fail, bool turned, int phase) {
   Pass p;
   p.depth_func = GL_LESS;
-  p.depth_clamp = m.far_plane == FarPlane::clamp;
+  // It would let through what lies before the near plane, where z-pass starts to count; what lies
+  // beyond the far plane is in front of nothing.
+  p.depth_clamp = z_fail && m.far_plane == FarPlane::clamp;
   p.stencil_test = true;
   if (grouped) p.stencil_write = kGroupBits;
   const GLenum up = m.ops == StencilOps::wrap ? GL_INCR_WRAP : GL_INCR;
@@ -400,7 +402,7 @@ void count_by_blending(const Frame& frame, const LightPlan& plan, const Prepared
         const Blend& blend = first == doubling ? kDouble : kHalve;
         Pass p;
         p.depth_func = z_fail ? GL_GEQUAL : GL_LESS;
-        p.depth_clamp = m.far_plane == FarPlane::clamp;
+        p.depth_clamp = z_fail && m.far_plane == FarPlane::clamp;
         p.blend = true;
         p.source = blend.source;
         p.destination = blend.destination;

@@ -5,11 +5,14 @@
 namespace gnomon::gl {
 namespace {
 
-// Depths are rounded to 24 bits, a surface's and a side's, and interpolated in floats of 24 bits.
+// Of a depth buffer of 24 bits: a surface's depth and a side's are rounded to a step each, and
+// before that to floats of 24 bits when corners are put on the screen and when they are
+// interpolated over polygons that reach far out of it.
 constexpr double kSteps = 8;
-// Corners of polygons are rounded to 1/256 pixel.
+// Corners are rounded to 1/256 pixel (OpenGL asks for 1/16 at least), of surface and side.
 constexpr double kCorner = 1.0 / 128;
 constexpr double kShare = 0.001;
+constexpr double kLowShare = 0.1;
 
 }  // namespace
 
@@ -20,23 +23,49 @@ MaskBound bound_of(const Method& m) {
   b.pixels = kCorner;
   if (m.mask_scale < 1) {
     b.of = m.mask_scale >= 0.5 ? "half size" : "quarter size";
-    b.edge = static_cast<int>(std::ceil(1 / m.mask_scale)) + 1;
-    b.share = 0.05;
+    // One answer stands for a square of pixels, and bilinear filtering reaches half a square more.
+    b.edge = static_cast<int>(std::ceil(1.5 / m.mask_scale));
     b.steps = b.pixels = 0;
+    b.share = kLowShare;
     b.unexplained = true;
+    b.why =
+        "one answer stands for a square of pixels, and near the rim of a surface for another "
+        "surface's";
   } else if (m.extrusion == Extrusion::blend_large) {
     b.of = "finite extrusion";
     b.unexplained = true;
+    b.why =
+        "points behind are 16777216 times as far from the light: in floats they lie beside the "
+        "points at infinity";
   } else if (m.count == Count::zp_plus) {
     b.of = "ZP+";
     b.unexplained = true;
+    b.why =
+        "casters are thrown on the near plane in another order of operations than sides are cut "
+        "by it: cracks at its edges";
   } else if (m.count == Count::near_cap) {
     b.of = "near caps";
+    b.why = "the cut with the near plane is rounded apart from the sides that it closes";
   } else {
     b.of = "full resolution";
     b.same_as_stencil = true;
+    b.why =
+        "the same sides with the same depths are counted, only kept elsewhere or counted from the "
+        "other end";
   }
   return b;
+}
+
+std::vector<MaskBound> mask_bounds() {
+  Method usual, caps, plus, large, half, quarter;
+  caps.count = Count::near_cap;
+  plus.count = Count::zp_plus;
+  large.extrusion = Extrusion::blend_large;
+  half.mask_scale = 0.5;
+  quarter.mask_scale = 0.25;
+  std::vector<MaskBound> out;
+  for (const Method& m : {usual, caps, plus, large, half, quarter}) out.push_back(bound_of(m));
+  return out;
 }
 
 }  // namespace gnomon::gl

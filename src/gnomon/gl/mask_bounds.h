@@ -20,8 +20,11 @@ struct MaskBound {
   double pixels = 0;
   bool unexplained = false;      // differences without such a reason are allowed, within the share
   bool same_as_stencil = false;  // not one pixel may differ from the stencil's mask
+  std::string_view why;
 };
 
 MaskBound bound_of(const Method& method);
+// One of each kind.
+std::vector<MaskBound> mask_bounds();
 
 }  // namespace gnomon::gl

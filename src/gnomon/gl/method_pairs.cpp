@@ -25,6 +25,7 @@ constexpr Count kCounts[] = {Count::automatic, Count::z_pass,  Count::z_fail,
 constexpr VolumesOf kVolumes[] = {VolumesOf::caster, VolumesOf::polygon};
 constexpr Extrusion kExtrusions[] = {Extrusion::shader, Extrusion::cpu, Extrusion::blend,
                                      Extrusion::blend_large};
+constexpr Reach kReaches[] = {Reach::infinite, Reach::bounded};
 constexpr Primitives kPrimitives[] = {Primitives::quads, Primitives::strips, Primitives::fans};
 constexpr FarPlane kFarPlanes[] = {FarPlane::infinite, FarPlane::clamp};
 constexpr Shadows kShadows[] = {Shadows::lights, Shadows::black, Shadows::attenuated};
@@ -38,17 +39,22 @@ MethodPairs::MethodPairs(const Situation& known, const Capabilities& capabilitie
     if (along && !(known.parallel_view && known.directional_light)) continue;
     for (const bool convex : {true, false}) {
       for (const bool near : {false, true}) {
-        Situation s = known;
-        s.light_along_view = along;
-        s.all_convex = convex;
-        s.near_shaded = near;
-        situations_.push_back(s);
+        for (const int more : {0, 1, 2, 3}) {
+          Situation s = known;
+          s.light_along_view = along;
+          s.all_convex = convex;
+          s.near_shaded = near;
+          s.can_bound = (more & 1) != 0;
+          s.light_in_near_plane = (more & 2) != 0;
+          situations_.push_back(s);
+        }
       }
     }
   }
   const std::array<std::size_t, kKinds> sizes{
-      std::size(kKeepings),   std::size(kCounts),    std::size(kVolumes), std::size(kExtrusions),
-      std::size(kPrimitives), std::size(kFarPlanes), std::size(kShadows), std::size(kScales)};
+      std::size(kKeepings),   std::size(kCounts),     std::size(kVolumes),
+      std::size(kExtrusions), std::size(kPrimitives), std::size(kFarPlanes),
+      std::size(kShadows),    std::size(kScales),     std::size(kReaches)};
   Levels at{};
   for (;;) {
     Method m;
@@ -64,11 +70,13 @@ MethodPairs::MethodPairs(const Situation& known, const Capabilities& capabilitie
     m.far_plane = kFarPlanes[at[5]];
     m.shadows = kShadows[at[6]];
     m.mask_scale = kScales[at[7]];
+    m.reach = kReaches[at[8]];
     left_.push_back({at, m});
     std::size_t k = 0;
     while (k < kKinds && ++at[k] == sizes[k]) at[k++] = 0;
     if (k == kKinds) break;
   }
+  keep_supported();
 }
 
 bool MethodPairs::supported(const Method& method) const {
@@ -94,19 +102,25 @@ void MethodPairs::cover(const Levels& levels) {
       covered_[((i * kLevels + levels[i]) * kKinds + j) * kLevels + levels[j]] = true;
 }
 
+void MethodPairs::keep_supported() {
+  std::erase_if(left_, [&](const Candidate& c) { return !supported(c.method); });
+}
+
 std::optional<Method> MethodPairs::next() {
-  std::erase_if(left_, [&](const Candidate& c) {
-    return !supported(c.method) || (!all_ && new_pairs(c.levels) == 0);
-  });
-  if (left_.empty()) return {};
   last_ = 0;
   if (!all_) {
-    const auto best =
-        std::max_element(left_.begin(), left_.end(), [&](const Candidate& a, const Candidate& b) {
-          return new_pairs(a.levels) < new_pairs(b.levels);
-        });
-    last_ = static_cast<std::size_t>(best - left_.begin());
+    int most = 0;
+    std::vector<Candidate> left;
+    for (const Candidate& c : left_) {
+      const int n = new_pairs(c.levels);
+      if (n == 0) continue;
+      if (n > most) last_ = left.size();
+      most = std::max(most, n);
+      left.push_back(c);
+    }
+    left_ = std::move(left);
   }
+  if (left_.empty()) return {};
   return left_[last_].method;
 }
 
@@ -118,8 +132,10 @@ void MethodPairs::drawn() {
     each.infinite_view = s.infinite_view && m.far_plane == FarPlane::infinite;
     if (decide(m, each, capabilities_)) fit.push_back(s);
   }
-  if (!fit.empty()) situations_ = std::move(fit);
   skipped();
+  if (fit.empty() || fit.size() == situations_.size()) return;
+  situations_ = std::move(fit);
+  keep_supported();
 }
 
 bool MethodPairs::refused(const std::string& why) {
@@ -133,8 +149,9 @@ bool MethodPairs::refused(const std::string& why) {
   }
   const bool foreseen = !fit.empty();
   if (foreseen) {
-    situations_ = std::move(fit);
     left_.erase(left_.begin() + static_cast<std::ptrdiff_t>(last_));
+    situations_ = std::move(fit);
+    keep_supported();
   } else {
     skipped();
   }

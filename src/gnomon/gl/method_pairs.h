@@ -29,13 +29,14 @@ class MethodPairs {
   void skipped();
 
  private:
-  static constexpr std::size_t kKinds = 8;
+  static constexpr std::size_t kKinds = 9;
   using Levels = std::array<std::uint8_t, kKinds>;
   struct Candidate {
     Levels levels;
     Method method;
   };
   bool supported(const Method& method) const;
+  void keep_supported();
   int new_pairs(const Levels& levels) const;
   void cover(const Levels& levels);
 
@@ -46,7 +47,8 @@ class MethodPairs {
   std::size_t last_ = 0;
   // Pairs that have been tried, by kind and level of both.
   static constexpr std::size_t kLevels = 8;
-  std::vector<bool> covered_ = std::vector<bool>(kKinds * kLevels * kKinds * kLevels);
+  std::vector<std::uint8_t> covered_ =
+      std::vector<std::uint8_t>(kKinds * kLevels * kKinds * kLevels);
 };
 
 }  // namespace gnomon::gl

@@ -4,6 +4,7 @@
 #include <functional>
 #include <vector>
 
+#include <gnomon/gl/mask_bounds.h>
 #include <gnomon/gl/method.h>
 
 namespace gnomon::gl {
@@ -27,6 +28,7 @@ and of src/gnomon/gl/method.h. What "the same mask" means, and how well it is ke
 - **Many lights, or a slow card**: `--mask-scale 0.5` or `0.25` draws the mask smaller and magnifies it; edges are softer and less exact.
 - **Old-fashioned casters**: `--extrusion cpu`, where a vertex shader is dear; `blend-large` where a point at infinity (w = 0) is not to be had: its finite
   volumes end at 16777216 times the distance from the light.
+- **Reach**: volumes end in a plane beyond the scene where there is one (`--reach auto`): less to fill, and z-fail needs no points at infinity.
 - **Parallel views** (plans, axonometries) need depth clamp: their far plane cannot be at infinity.
 - `zp-plus` and `near-cap` are there to be compared with: z-pass whose start is counted at the near plane.
 - The first paper's single light (`--shadows black`, `ambient`, `attenuated`) or lights that add up (`lights`): the mask is the same.
@@ -181,6 +183,9 @@ const Axis kLight{"light",
 const Axis kNear{
     "between near plane and light",
     {{"nothing", [](Case&) {}}, {"casters", [](Case& c) { c.situation.near_shaded = true; }}}};
+const Axis kBound{
+    "plane beyond the scene",
+    {{"none", [](Case&) {}}, {"there is one", [](Case& c) { c.situation.can_bound = true; }}}};
 const Axis kCasters{"casters",
                     {{"closed and convex", [](Case&) {}},
                      {"any", [](Case& c) { c.situation.all_convex = false; }}}};
@@ -204,7 +209,7 @@ std::string main_tables(Notes& notes) {
   for (const Choice& mask : masks()) {
     Case c = everything();
     mask.set(c);
-    const std::vector<Axis> axes{kFramebuffer, kView, kLight, kNear, kCasters};
+    const std::vector<Axis> axes{kFramebuffer, kView, kLight, kNear, kBound, kCasters};
     text +=
         "\n### " + mask.name + "\n\n" + table(axes, counts(), rows_of(axes, 0, counts(), c, cell));
   }
@@ -217,7 +222,7 @@ std::string other_tables(Notes& notes) {
   Axis view = kView;
   view.choices.pop_back();
   const auto outcome = [&](const Axis& row, const Case& from) {
-    std::vector<Axis> situations{view, kLight, kCasters};
+    std::vector<Axis> situations{view, kLight, kBound, kCasters};
     std::erase_if(situations, [&](const Axis& axis) { return axis.title == row.title; });
     bool good = false;
     std::vector<std::string> refused;
@@ -251,8 +256,9 @@ std::string other_tables(Notes& notes) {
                {"--arithmetic",
                 choices_of(&Method::arithmetic, {Arithmetic::doubling, Arithmetic::maximum})},
                masks(), MaskIn::alpha);
-  const std::vector<Choice> shadows = choices_of(
-      &Method::shadows, {Shadows::lights, Shadows::black, Shadows::ambient, Shadows::attenuated});
+  const std::vector<Choice> shadows =
+      choices_of(&Method::shadows, {Shadows::automatic, Shadows::lights, Shadows::restored,
+                                    Shadows::black, Shadows::ambient, Shadows::attenuated});
   text += pair("Arithmetic of alpha and screen masks against what a shadow is:",
                {"--arithmetic",
                 choices_of(&Method::arithmetic, {Arithmetic::doubling, Arithmetic::maximum})},
@@ -268,12 +274,25 @@ std::string other_tables(Notes& notes) {
   const std::vector<Choice> primitives =
       choices_of(&Method::primitives, {Primitives::quads, Primitives::strips, Primitives::fans});
   text += pair("Light against primitives:", kLight, primitives, MaskIn::stencil);
+  const std::vector<Choice> reaches =
+      choices_of(&Method::reach, {Reach::automatic, Reach::infinite, Reach::bounded});
+  text += pair("Reach against primitives, sun and lamp:", {"--reach", reaches}, primitives,
+               MaskIn::stencil);
+  text += pair("Plane beyond the scene against reach:", kBound, reaches, MaskIn::stencil);
   text +=
       pair("Volumes against primitives:", {"--volumes", volumes()}, primitives, MaskIn::stencil);
   text += pair(
       "View against far plane:", kView,
       choices_of(&Method::far_plane, {FarPlane::automatic, FarPlane::infinite, FarPlane::clamp}),
       MaskIn::stencil);
+  text += pair("Reach against extrusion:", {"--reach", reaches},
+               choices_of(&Method::extrusion, {Extrusion::cpu, Extrusion::shader, Extrusion::blend,
+                                               Extrusion::blend_large}),
+               MaskIn::stencil);
+  text += pair(
+      "Number of lights against what a shadow is, alpha:",
+      {"lights", {{"one", [](Case&) {}}, {"several", [](Case& c) { c.situation.lights = 2; }}}},
+      shadows, MaskIn::alpha);
   text += pair("View against extrusion:", view,
                choices_of(&Method::extrusion, {Extrusion::cpu, Extrusion::shader, Extrusion::blend,
                                                Extrusion::blend_large}),
@@ -350,6 +369,35 @@ same names, which must be asked for. Only rows that change are shown, and in the
   return text;
 }
 
+// Without trailing zeros.
+std::string number(double v) {
+  std::string text = std::to_string(v);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text;
+}
+
+std::string bounds_table() {
+  std::string text = R"(
+## How exact
+
+What `gnomon verify-gl` and the tests hold every method to (src/gnomon/gl/mask_bounds.cpp). A sample may differ from the exact mask where its answer is
+exact within so many pixels of it, or where sides of shadow volumes lie within so many steps of a 24-bit depth buffer of it, plus what their slopes
+make of so much of a pixel. Samples whose surface lies exactly in one plane with the light are left out: the tie rule alone decides about them.
+
+| methods | may differ, % of a picture | pixels | steps | and slopes over pixels | without such a reason | other than the stencil's mask | because |
+|---|--:|--:|--:|--:|---|---|---|
+)";
+  for (const MaskBound& b : mask_bounds()) {
+    text += "| " + std::string(b.of) + " | " + number(100 * b.share) + " | " + number(b.edge) +
+            " | " + number(b.steps) + " | " + number(b.pixels) + " | " +
+            (b.unexplained ? "within the share" : "none") + " | " +
+            (b.same_as_stencil ? "not one pixel" : "within the share") + " | " +
+            std::string(b.why) + " |\n";
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string methods_page() {
@@ -358,6 +406,7 @@ std::string methods_page() {
   text += main_tables(notes);
   text += other_tables(notes);
   text += poorer_tables(notes);
+  text += bounds_table();
   return text + "\n## Reasons\n\n" + notes.text();
 }
 

@@ -81,6 +81,8 @@ GltfCorners GltfLooks::corners(const Json& primitive, std::size_t count, const s
     warn_of("Primitives have pictures, but no texture coordinates for them.", where);
     return out;
   }
+  // Counter-clockwise as the picture is seen, its v downwards: so the extension's text and viewers;
+  // the matrix that it prints turns the other way.
   const double c = std::cos(map.rotation), s = std::sin(map.rotation);
   for (std::size_t k = 0; k < count; ++k) {
     const double u = read.value()[2 * k] * map.scale.x, v = read.value()[2 * k + 1] * map.scale.y;

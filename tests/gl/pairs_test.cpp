@@ -1,0 +1,197 @@
+// Combinations of choices, so many that every two come together in one, over small scenes that are
+// hard in different ways.
+#include <gnomon/gl/mask_bounds.h>
+#include <gnomon/gl/method_pairs.h>
+#include <gnomon/shadow/compare_masks.h>
+#ifdef GNOMON_HAVE_IO
+#include <gnomon/io/load_scene.h>
+#endif
+
+#include <map>
+
+#include "gl_test.h"
+
+namespace gnomon::gl {
+namespace {
+
+struct Tried {
+  int drawn = 0;
+  MaskDifference difference;
+};
+
+// Draws the combinations under each light and holds them to their bounds.
+Tried try_pairs(const Scene& scene, const View& view, const std::vector<Light>& lights,
+                Api api = Api::opengl, const std::vector<std::string>& lacking = {}) {
+  Stage stage = stage_of(scene, api, lacking);
+  const Casters casters = prepare_casters(scene);
+  const ExactView exact_view_of = exact_view(scene, casters, view);
+  const Camera clamped = camera_of(view, depth_range(scene, view, false));
+  const Camera infinite =
+      is_parallel(view) ? clamped : camera_of(view, depth_range(scene, view, true));
+  Tried tried;
+  for (const Light& light : lights) {
+    const ExactAnswers exact = exact_answers(exact_view_of, light);
+    Situation known;
+    known.parallel_view = is_parallel(view);
+    known.directional_light = light.w == 0;
+    known.infinite_view = !known.parallel_view;
+    MethodPairs pairs(known, stage.renderer.capabilities(), false);
+    std::map<std::pair<FarPlane, Reach>, ShadowMask> stencil;
+    while (const std::optional<Method> m = pairs.next()) {
+      const Camera& camera = m->far_plane == FarPlane::clamp ? clamped : infinite;
+      const Result<ShadowMask> mask = stage.renderer.mask(camera, light, *m);
+      if (!mask) {
+        EXPECT_TRUE(pairs.refused(mask.error().message) ||
+                    mask.error().message.find("More shadows") == 0)
+            << describe(*m) << ": " << mask.error().message;
+        continue;
+      }
+      pairs.drawn();
+      ++tried.drawn;
+      const MaskBound b = bound_of(*m);
+      const MaskDifference d =
+          compare_masks(exact, mask.value(), {camera.clip}, {b.edge, b.steps, b.pixels});
+      EXPECT_LE(double(d.differ), b.share * double(d.samples) + 2) << describe(*m);
+      EXPECT_TRUE(b.unexplained || d.unexplained == 0) << describe(*m) << ": " << d.unexplained;
+      tried.difference += d;
+      if (!b.same_as_stencil) continue;
+      auto& first = stencil[{m->far_plane, m->reach}];
+      if (first.state.empty()) {
+        Method base;
+        base.far_plane = m->far_plane;
+        base.reach = m->reach;
+        first = stage.renderer.mask(camera, light, base).value();
+      }
+      EXPECT_EQ(differing_pixels(exact, mask.value(), first), 0u) << describe(*m);
+    }
+  }
+  return tried;
+}
+
+View small_aerial() { return aerial(128, 96); }
+View small_axonometry() {
+  return orthographic_view({25, -30, 22}, {0, 0, 1}, {0, 0, 1}, 30, 128, 96);
+}
+
+const std::vector<Light> kLights{Light(5, -4, 15, 1), Light(0.4, -0.31, 0.5, 0)};
+
+TEST(Pairs, KeepTheirBoundsOverBoxes) {
+  const Scene scene = test::scene_of(boxes_on_ground());
+  EXPECT_GT(try_pairs(scene, small_aerial(), kLights).drawn, 100);
+  EXPECT_GT(try_pairs(scene, small_axonometry(), kLights).drawn, 50);
+}
+
+// A low sun's shadows end in an upright plane, across x or y, whose matrix has a zero where that of
+// a point at infinity has one.
+TEST(Reach, BoundedByAnUprightPlaneIsExact) {
+  const Scene scene = test::scene_of(boxes_on_ground());
+  Stage stage = stage_of(scene);
+  const View view = aerial();
+  const Camera camera = camera_of(view, depth_range(scene, view, true));
+  Method m;
+  m.reach = Reach::bounded;
+  for (const Light& light : {Light(0.9, -0.3, 0.2, 0), Light(-0.9, 0.25, 0.2, 0),
+                             Light(0.3, -0.9, 0.2, 0), Light(0.25, 0.9, 0.2, 0)}) {
+    const Result<ShadowMask> mask = stage.renderer.mask(camera, light, m);
+    if (!mask) continue;  // the near plane lies behind such a plane
+    EXPECT_LE(compare(mask.value(), exact_mask(scene, light, view)).pixels, 10) << light.x;
+  }
+}
+
+// A plate shades the eye but not the near rectangle: its side passes between them.
+TEST(NearPlane, SidesBeforeItAreNotCountedWithDepthClamp) {
+  TriMesh m;
+  test::add_ground(m, 40);
+  test::add_box(m, {-0.5, -2, 8}, {0.5, 2, 8.5});
+  test::add_box(m, {8, -3, 3}, {12, 3, 4});
+  const Scene scene = test::scene_of(std::move(m));
+  const View view = perspective_view({0, 0, 5}, {10, 0, 1}, {0, 0, 1}, 0.8, 64, 48);
+  const Camera camera = camera_of(view, {1.0, 100.0});
+  const Light sun(0, 0, 1, 0);
+  const ShadowMask exact = exact_mask(scene, sun, view);
+  ASSERT_GT(std::count(exact.state.begin(), exact.state.end(), ShadowMask::kShadow), 100);
+  Stage stage = stage_of(scene);
+  for (const MaskIn mask : {MaskIn::stencil, MaskIn::alpha, MaskIn::screen}) {
+    for (const Count count : {Count::automatic, Count::z_fail, Count::near_cap, Count::zp_plus}) {
+      Method method;
+      method.mask = mask;
+      method.count = count;
+      method.far_plane = FarPlane::clamp;
+      EXPECT_LE(compare(stage.renderer.mask(camera, sun, method).value(), exact).pixels, 10)
+          << describe(method);
+    }
+  }
+}
+
+TEST(Pairs, KeepTheirBoundsOnOpenGlEs) {
+  const Scene scene = test::scene_of(boxes_on_ground());
+  EXPECT_GT(try_pairs(scene, small_aerial(), kLights, Api::opengl_es).drawn, 100);
+}
+
+TEST(Pairs, KeepTheirBoundsOverASoup) {
+  TriMesh m;
+  test::add_ground(m, 20);
+  test::add_soup(m, 40, 8, 0, 7);
+  try_pairs(test::scene_of(std::move(m)), small_aerial(), kLights);
+}
+
+TEST(Pairs, KeepTheirBoundsOverOpenNonManifoldAndInsideOutCasters) {
+  TriMesh m;
+  test::add_ground(m, 20);
+  test::add_quad(m, {-6, 0, 1}, {0, 0, 1}, {0, 3, 5}, {-6, 3, 5});  // three sheets on one edge
+  test::add_quad(m, {-6, 0, 1}, {0, 0, 1}, {0, -3, 4}, {-6, -3, 4});
+  test::add_quad(m, {-6, 0, 1}, {0, 0, 1}, {0, 0, 6}, {-6, 0, 6});
+  TriMesh box;
+  test::add_box(box, {3, 1, 1}, {8, 5, 4});
+  for (Triangle& t : box.triangles) {  // inside out
+    std::swap(t[1], t[2]);
+    for (std::uint32_t& v : t) v += static_cast<std::uint32_t>(m.positions.size());
+  }
+  box.triangles.pop_back();  // and open
+  m.positions.insert(m.positions.end(), box.positions.begin(), box.positions.end());
+  m.triangles.insert(m.triangles.end(), box.triangles.begin(), box.triangles.end());
+  const Scene scene = test::scene_of(std::move(m));
+  try_pairs(scene, small_aerial(), kLights);
+  try_pairs(scene, small_axonometry(), {kLights[1]});
+}
+
+TEST(Pairs, KeepTheirBoundsWithoutWhatOpenGlEsMayLack) {
+  TriMesh m = boxes_on_ground();
+  test::add_soup(m, 12, 6, 0, 3);
+  const Scene scene = test::scene_of(std::move(m));
+  for (const std::vector<std::string>& lacking : std::vector<std::vector<std::string>>{
+           {"depth-clamp"}, {"float-blend"}, {"float-colour", "depth-clamp", "multisampling"}}) {
+    EXPECT_GT(try_pairs(scene, small_aerial(), {kLights[0]}, Api::opengl_es, lacking).drawn, 20);
+  }
+}
+
+#ifdef GNOMON_HAVE_IO
+// The buildings within `half` metres of the middle.
+Scene vienna(double half) {
+  LoadOptions options;
+  options.crs = "EPSG:31256";
+  Scene scene =
+      load_scene({std::string(GNOMON_SCENES) + "/vienna/vienna.city.jsonl"}, options).value().scene;
+  Vec3 middle(0);
+  for (const Vec3& p : scene.mesh.positions)
+    middle += p / static_cast<double>(scene.mesh.positions.size());
+  TriMesh part;
+  part.positions = scene.mesh.positions;
+  for (Vec3& p : part.positions) p -= middle;
+  for (const Triangle& t : scene.mesh.triangles) {
+    const Vec3& p = part.positions[t[0]];
+    if (std::fabs(p.x) < half && std::fabs(p.y) < half) part.triangles.push_back(t);
+  }
+  return test::scene_of(std::move(part));
+}
+
+TEST(Pairs, KeepTheirBoundsOverAPartOfVienna) {
+  const Scene scene = vienna(45);
+  ASSERT_GT(scene.mesh.triangles.size(), 200u);
+  const View view = perspective_view({80, -90, 70}, {0, 0, 0}, {0, 0, 1}, 0.8, 128, 96);
+  try_pairs(scene, view, {Light(0.4, -0.31, 0.5, 0)});
+}
+#endif
+
+}  // namespace
+}  // namespace gnomon::gl
