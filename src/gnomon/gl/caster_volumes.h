@@ -26,7 +26,7 @@ inline constexpr int kWrapMiddle = 32, kWrapLayers = 255 - kWrapMiddle;
 // The light grazes a triangle where the sine of the angle between its plane and the light, seen
 // from the corner where it is least, is no more than this. There sides start that lie in the plane
 // of what they fall on, to the precision of a depth buffer (docs/renderer.md).
-inline constexpr double kGrazing = 1.0 / 256;
+inline constexpr double kGrazing = 0x1p-14;
 
 // How one part is drawn, for this light and camera.
 struct PartPlan {
