@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <tuple>
 
 #include <fmt/format.h>
 #include <gnomon/gl/context.h>
@@ -88,7 +89,10 @@ void note(Totals& totals, const std::string& where, const gl::Method& m, const M
       "{}: {}: {} of {} differ, {} at an edge, {} in depth, {} unexplained; {} other "
       "than the stencil",
       where, gl::describe(m), d.differ, d.samples, d.at_edge, d.in_depth, d.unexplained, other);
-  for (const std::size_t k : d.first_unexplained) text += fmt::format(" {}", k);
+  for (const MaskDifference::Unexplained& u : d.first_unexplained) {
+    text += fmt::format("; pixel {} of triangle {}, exact count {}", u.pixel, u.triangle, u.count);
+    text += u.times > 0 ? fmt::format(", {} times the rounding", u.times) : ", no rounding";
+  }
   totals.broken.push_back(text);
 }
 
@@ -99,8 +103,10 @@ void verify_light(const Stage& stage, const std::string& where, const Cameras& c
   known.parallel_view = is_parallel(view);
   known.directional_light = exact.light.w == 0;
   known.infinite_view = cameras.infinite.has_value();
-  // One mask of the stencil for each camera and reach, which the others must equal.
-  std::map<std::pair<const gl::Camera*, gl::Reach>, std::pair<ShadowMask, MaskDifference>> stencil;
+  // One mask of the stencil for each geometry, which the others must equal: camera, reach, and how
+  // sides are sent (strips split them along the other diagonal).
+  using Geometry = std::tuple<const gl::Camera*, gl::Reach, gl::Primitives>;
+  std::map<Geometry, std::pair<ShadowMask, MaskDifference>> stencil;
   gl::MethodPairs pairs(known, stage.renderer.capabilities(), stage.o.all);
   const auto compare = [&](const gl::Method& m, const ShadowMask& mask) {
     const gl::MaskBound b = gl::bound_of(m);
@@ -132,7 +138,7 @@ void verify_light(const Stage& stage, const std::string& where, const Cameras& c
     }
     pairs.drawn();
     ++totals.combinations;
-    const std::pair<const gl::Camera*, gl::Reach> same{&camera, m.reach};
+    const Geometry same{&camera, m.reach, m.primitives};
     if (!stencil.contains(same) && !gl::bound_of(m).same_as_stencil) {
       note(totals, where, m, compare(m, drawn.value()), 0);
       continue;
@@ -141,6 +147,7 @@ void verify_light(const Stage& stage, const std::string& where, const Cameras& c
       gl::Method base;
       base.far_plane = m.far_plane;
       base.reach = m.reach;
+      base.primitives = m.primitives;
       const Result<ShadowMask> usual = stage.renderer.mask(camera, exact.light, base);
       if (!usual) ++totals.refused[usual.error().message];
       // Where the usual way is refused, the first that is not stands for it.

@@ -62,9 +62,6 @@ class Edges {
     return n;
   }
 
- private:
-  static constexpr int kFiner = 5;  // odd: pixel centres are samples
-
   bool near(int x, int y, std::uint8_t state) {
     if (samples_.state.empty()) {
       View finer = case_.view;
@@ -85,6 +82,9 @@ class Edges {
     }
     return false;
   }
+
+ private:
+  static constexpr int kFiner = 5;  // odd: pixel centres are samples
 
   bool same_face(std::uint32_t s, std::uint32_t t) const {
     if (s == t) return true;
@@ -114,8 +114,13 @@ Difference difference(const ShadowMask& mask, const ShadowMask& exact, Edges& ed
 // near_cap and zp_plus start from polygons in the near plane whose edges are computed apart from
 // those of the sides that the graphics card clips there (Everitt and Kilgard 2002, 2.2.2): along
 // these edges single pixels may be counted twice or not at all, wherever in the picture they end.
-// Measured: 1 pixel of 43 200 in one case of 40.
+// Measured: 1 pixel of 43 200 in one case of 39.
 constexpr int kNearEdgePixels = 4;
+
+// Exactly along the light sides are seen as lines. The far plane, which clips them for z-pass,
+// makes slivers of them, and two-sided stencils and culling need not agree which way a sliver
+// faces. Measured: 1 pixel.
+constexpr int kEdgeOnPixels = 4;
 
 TEST_P(HardCases, AreTheExactMaskByEveryMethod) {
   const scenes::HardCase& c = hard();
@@ -150,7 +155,9 @@ TEST_P(HardCases, AreTheExactMaskByEveryMethod) {
         } else {
           EXPECT_LE(d.pixels, int(exact.state.size() / 1000)) << what;
           EXPECT_EQ(d.far_off, 0) << what;
-          EXPECT_EQ(count_different(mask.value(), first), 0) << what;
+          EXPECT_LE(count_different(mask.value(), first),
+                    c.name == "parallel-view-along-light" ? kEdgeOnPixels : 0)
+              << what;
         }
       }
     }
@@ -277,6 +284,83 @@ TEST(Flight, HasNotOneWrongFrame) {
   EXPECT_EQ(frame, std::size_t(scenes::kFlightFrames));
   EXPECT_GT(with_z_fail, 30);
   EXPECT_GT(without, 30);
+}
+
+bool crosses(const Scene& scene, const Vec3& from, const Vec3& towards, std::uint32_t but) {
+  const auto plane = [&](std::uint32_t k) {
+    const Triangle& t = scene.mesh.triangles[k];
+    const std::vector<Vec3>& p = scene.mesh.positions;
+    const Vec3 n = glm::normalize(glm::cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]]));
+    return Vec4(n, -glm::dot(n, p[t[0]]));
+  };
+  for (std::uint32_t k = 0; k < scene.mesh.triangles.size(); ++k) {
+    if (k == but || glm::distance(plane(k), plane(but)) < 1e-9) continue;
+    const Triangle& t = scene.mesh.triangles[k];
+    const Vec3 a = scene.mesh.positions[t[0]];
+    const Vec3 u = scene.mesh.positions[t[1]] - a, v = scene.mesh.positions[t[2]] - a;
+    const Vec3 p = glm::cross(towards, v);
+    const double det = glm::dot(u, p);
+    if (det == 0) continue;
+    const Vec3 d = from - a, q = glm::cross(d, u);
+    const double x = glm::dot(d, p) / det, y = glm::dot(towards, q) / det;
+    if (x >= 0 && y >= 0 && x + y <= 1 && glm::dot(v, q) / det > 0) return true;
+  }
+  return false;
+}
+
+// A near plane of a millimetre leaves 240 m to a depth step at 2 km: shadows there are wrong by as
+// much as that, and no more. Each pixel that differs has a point of its own state within
+// kDepthSteps steps along its ray, or is near an edge.
+constexpr double kDepthSteps = 4;
+
+TEST(DepthSteps, BoundWhatAFarSceneLoses) {
+  scenes::HardCase c;
+  TriMesh m;
+  test::add_ground(m, 4000);
+  for (int k = 0; k < 12; ++k) {
+    const double y = 60.0 * std::pow(1.4, k), x = (k % 3 - 1) * 0.12 * y;
+    test::add_box(m, {x - 0.03 * y, y, 0}, {x + 0.03 * y, y + 0.04 * y, 0.05 * y});
+  }
+  c.scene = test::scene_of(m);
+  c.light = Light(0.5, -0.2, 0.4, 0);
+  c.view = perspective_view({0, 0, 60}, {0, 600, 0}, {0, 0, 1}, 0.5, kWidth, kHeight);
+  DepthRange range;
+  range.near_plane = 0.001;
+  const Camera camera = camera_of(c.view, range);
+  Stage stage = stage_of(c.scene);
+  const ShadowMask exact = exact_mask(c.scene, c.light, c.view);
+  const Receivers seen = visible_surfaces(c.scene, c.view);
+  const glm::dmat4 rows = glm::transpose(camera.clip);
+  Edges edges(c);
+  for (const Count count : {Count::automatic, Count::z_fail}) {
+    Method method;
+    method.count = count;
+    const ShadowMask mask = stage.renderer.mask(camera, c.light, method).value();
+    int different = 0, within_steps = 0, unexplained = 0;
+    for (int y = 0; y < kHeight; ++y) {
+      for (int x = 0; x < kWidth; ++x) {
+        const std::size_t k = std::size_t(y) * kWidth + x;
+        if (mask.state[k] == exact.state[k]) continue;
+        ++different;
+        bool explained = edges.near(x, y, mask.state[k]);
+        if (!explained && seen.triangle[k] != kNoTriangle) {
+          const Vec3 q(pixel_point(c.view, x, y));
+          const Vec3 p = Vec3(c.view.eye) + q / double(seen.nearness[k]);
+          const double w = glm::dot(rows[3], point(p));
+          const double step = w * w * 0x1p-24 / range.near_plane;
+          const double per_metre = glm::dot(Vec3(rows[3]), q);  // of depth, along q
+          for (double n = -kDepthSteps; n <= kDepthSteps && !explained; n += 1.0 / 16) {
+            explained = crosses(c.scene, p + q * (n * step / per_metre), Vec3(c.light),
+                                seen.triangle[k]) == (mask.state[k] == ShadowMask::kShadow);
+          }
+          within_steps += explained ? 1 : 0;
+        }
+        unexplained += explained ? 0 : 1;
+      }
+    }
+    EXPECT_GT(within_steps, 0) << name_of(count);
+    EXPECT_EQ(unexplained, 0) << name_of(count);
+  }
 }
 
 // A lamp on a caster is drawn as one beside it; that one's mask is exact.

@@ -9,13 +9,13 @@
 namespace gnomon::gl {
 namespace {
 
-constexpr int kAcross = 56;  // boxes; 3136 in all
+constexpr int kAcross = 50;  // boxes; 2500 in all
 
 glm::dmat4 place_of(int k) {
   const int i = k % kAcross, j = k / kAcross;
   const double size = 1 + (k * 7 % 11) * 0.125;
   glm::dmat4 m = glm::translate(glm::dmat4(1.0), Vec3(4.0 * i, 4.0 * j, 0));
-  m = glm::rotate(m, 0.37 * k, Vec3(0, 0, 1));
+  m = glm::rotate(m, 0.37 * (k % 5), Vec3(0, 0, 1));
   return glm::scale(m, Vec3(size));
 }
 
@@ -43,7 +43,8 @@ TEST(Instances, ThousandsOfThemPaintTheMaskOfOneMesh) {
   }
   const Scene scene = test::scene_of(std::move(whole));
   const View view = perspective_view({-40, -50, 70}, {112, 112, 0}, {0, 0, 1}, 0.7, 160, 120);
-  const Light light(60, 80, 45, 1);
+  // Grazes none of their walls, or all sides would be moved away a little (mask.cpp).
+  const Light light(0.5, 0.32, 0.6, 0);
   const Casters casters = prepare_casters(scene);
   const ExactView exact_view_of = exact_view(scene, casters, view);
   const ExactAnswers exact = exact_answers(exact_view_of, light);
@@ -98,17 +99,22 @@ std::vector<double> lit_share(const Scene& scene, const View& view, const Light&
 // the pixel: of a straight edge through it they see the larger part of the pixel's area where that
 // is above 3/4, since of the usual patterns no half plane of that area misses more than half.
 TEST(Multisampling, MaskIsTheLargerPartOfThePixel) {
-  const Scene scene = test::scene_of(boxes_on_ground());
+  TriMesh m;  // closed and convex: alpha and screen masks have several samples of no others
+  test::add_box(m, {-20, -20, -1}, {20, 20, 0});
+  test::add_box(m, {-3, -2, 0.5}, {1, 2, 6});
+  test::add_box(m, {4, 3, 0.5}, {7, 8, 3});
+  test::add_box(m, {-9, 5, 2}, {-6, 9, 4});
+  const Scene scene = test::scene_of(std::move(m));
   const View view = aerial(128, 96);
   for (const Light light : {Light(5, -4, 15, 1), Light(0.4, -0.31, 0.5, 0)}) {
     const std::vector<double> share = lit_share(scene, view, light);
     Stage stage = stage_of(scene);
     const Camera camera = camera_of(view, depth_range(scene, view, true));
     for (const MaskIn in : {MaskIn::stencil, MaskIn::alpha, MaskIn::screen}) {
-      Method m;
-      m.mask = in;
-      m.samples = 4;
-      const ShadowMask mask = stage.renderer.mask(camera, light, m).value();
+      Method method;
+      method.mask = in;
+      method.samples = 4;
+      const ShadowMask mask = stage.renderer.mask(camera, light, method).value();
       int wrong = 0, edges = 0;
       for (std::size_t k = 0; k < share.size(); ++k) {
         if (share[k] < 0) continue;
@@ -118,9 +124,9 @@ TEST(Multisampling, MaskIsTheLargerPartOfThePixel) {
                      ? 1
                      : 0;
       }
-      EXPECT_GT(edges, 100);
+      EXPECT_GT(edges, 50);
       // Corners and slivers in a pixel are no half planes.
-      EXPECT_LE(wrong, edges / 20) << describe(m);
+      EXPECT_LE(wrong, edges / 20) << describe(method);
     }
   }
 }

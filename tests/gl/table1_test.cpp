@@ -83,8 +83,8 @@ TEST(Table1, TheMaximumVariantHasNoBlackOrAmbientCell) {
   }
 }
 
-// Lit is 254/255 in a doubled mask, one half is 127/255 or 128/255, and the product is rounded once:
-// channels of two pictures may be one step of 255 apart, in no pixel more.
+// Lit is 254/255 in a doubled mask, one half is 127/255 or 128/255, and the product is rounded
+// once: channels of two pictures may be one step of 255 apart, in no pixel more.
 TEST(Table1, AlphaScreenAndStencilPaintTheSamePictureButForRounding) {
   constexpr int kRounding = 1;
   const scenes::PaperScene s = scenes::convex_bodies();

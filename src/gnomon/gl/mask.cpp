@@ -301,7 +301,7 @@ void count_group(const Frame& frame, const LightPlan& plan, const std::vector<Ba
 }
 
 void clear_stencil(const Frame& frame, int value) {
-  if (std::exchange(frame.stencil, std::nullopt) == value) return;
+  if (std::exchange(frame.state->stencil, std::nullopt) == value) return;
   Pass p;
   p.depth_test = false;
   apply(p, frame);

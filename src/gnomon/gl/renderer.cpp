@@ -35,7 +35,8 @@ void clear(const Frame& frame, const Target& target, const Vec3& background) {
                static_cast<float>(background.z), 0.0f);
   glClearDepthf(1.0f);
   glClearStencil(kWrapMiddle);  // where the first light's count most often begins
-  if (target.format.stencil) frame.stencil = kWrapMiddle;
+  frame.state->stencil = std::nullopt;
+  if (target.format.stencil) frame.state->stencil = kWrapMiddle;
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT |
           (target.format.stencil ? GL_STENCIL_BUFFER_BIT : 0));
 }

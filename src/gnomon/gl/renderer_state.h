@@ -41,6 +41,7 @@ struct Renderer::State {
   VertexArray near_cap_array;
   Query query;
   std::optional<Target> picture;  // of draw()
+  std::optional<int> stencil;     // what the whole stencil is known to hold: the frame cleared it
   std::optional<Error> failure;   // of a shader that was needed in the middle of a frame
 };
 
@@ -52,7 +53,6 @@ struct Frame {
 
   std::optional<Rect> scissor{};                        // outside it nothing is seen
   std::optional<std::array<double, 2>> depth_bounds{};  // likewise, in 0 .. 1
-  mutable std::optional<int> stencil{};                 // what the whole stencil is known to hold
 
   glm::mat4 clip_of(const InstanceSlot& instance) const {
     return glm::mat4(camera->clip * instance.to_scene);

@@ -1,6 +1,7 @@
 #include <gnomon/shadow/compare_masks.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -17,6 +18,7 @@ namespace {
 constexpr int kClose = 16;
 // A close look costs as much as a small picture: a mask that is altogether wrong gets no more.
 constexpr std::size_t kLooks = 64;
+constexpr double kMostTimes = 65536;
 
 View part_of(const View& v, double left, double top, int width, int height, int finer) {
   View out = v;
@@ -70,13 +72,15 @@ Vec4 plane_through(const Vec4& a, const Vec4& b, const Vec4& c) {
 
 struct Depths {
   const View& view;
-  Vec4 z, w;     // rows of the matrix to clip space
+  glm::dmat4 rows;  // of the matrix to clip space
+  Vec4 z, w;
   double steps;  // per unit of z / w
 
   Depths(const View& v, const DepthBuffer& buffer)
       : view(v),
-        z(glm::transpose(buffer.clip)[2]),
-        w(glm::transpose(buffer.clip)[3]),
+        rows(glm::transpose(buffer.clip)),
+        z(rows[2]),
+        w(rows[3]),
         steps(buffer.steps / 2) {}
 
   // Where the ray of the pixel point q meets the plane, in steps; NaN where it does not.
@@ -89,12 +93,39 @@ struct Depths {
     const double here = at(plane, q);
     return std::fabs(at(plane, q + view.right) - here) + std::fabs(at(plane, q + view.down) - here);
   }
+  // A triangle that passes within `pixels` of the pixel's centre, no deeper than `depth`. False for
+  // those that reach behind the eye.
+  bool passes(const std::array<Vec4, 3>& corners, int column, int row, double pixels,
+              double depth) const {
+    std::array<Vec2, 3> at;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec4 c = corners[k] * rows;  // row times matrix of rows: clip space
+      if (!(c.w > 0)) return false;
+      at[k] = Vec2((c.x / c.w + 1) / 2 * view.width - column - 0.5,
+                   (1 - c.y / c.w) / 2 * view.height - row - 0.5);
+      nearest = std::min(nearest, c.z / c.w * steps);
+    }
+    if (nearest > depth) return false;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec2 a = at[k], d = at[(k + 1) % 3] - a;
+      const double length2 = glm::dot(d, d);
+      const double s = length2 > 0 ? std::clamp(-glm::dot(a, d) / length2, 0.0, 1.0) : 0.0;
+      if (glm::length(a + s * d) <= pixels) return true;
+    }
+    return false;
+  }
 };
 
 // The highest and lowest count that rounding of depths can make of n(p).
 struct Reach {
   std::int32_t least, most;
+  bool other_surface = false;  // is as near as the one that is seen
 };
+
+bool explains(const Reach& reach, std::uint8_t state) {
+  return reach.other_surface || (state == ShadowMask::kShadow ? reach.most > 0 : reach.least <= 0);
+}
 
 Reach reach_of(const ExactAnswers& a, std::size_t pixel, const Depths& depths,
                const Rounding& rounding) {
@@ -103,38 +134,58 @@ Reach reach_of(const ExactAnswers& a, std::size_t pixel, const Depths& depths,
   const Vec4 q =
       pixel_point(v, static_cast<int>(pixel) % v.width, static_cast<int>(pixel) / v.width);
   const auto vertex = [&](std::uint32_t k) { return point(scene.mesh.positions[k]); };
-  const Triangle& r = scene.mesh.triangles[a.view->samples.triangle[pixel]];
+  const std::uint32_t seen = a.view->samples.triangle[pixel];
+  const Triangle& r = scene.mesh.triangles[seen];
   const Vec4 surface = plane_through(vertex(r[0]), vertex(r[1]), vertex(r[2]));
   const double here = depths.at(surface, q);
   const double surface_slope = depths.slope(surface, q);
-  const Vec4 behind = -a.light;
-  Reach reach{a.counts[pixel], a.counts[pixel]};
-  for (const SilhouetteEdge& e : a.silhouette) {
-    const Vec4 A = vertex(e.a), B = vertex(e.b);
-    const Vec4 plane = plane_through(A, B, behind);
-    const double distance = depths.at(plane, q) - here;
+  // How much deeper the polygon is on the pixel's ray, where it covers it and rounding can tell.
+  const auto close_by = [&](const Vec4& A, const Vec4& B, const Vec4& C, double& distance) {
+    const Vec4 plane = plane_through(A, B, C);
+    distance = depths.at(plane, q) - here;
     if (!(std::fabs(distance) <=
           rounding.steps + rounding.pixels * (surface_slope + depths.slope(plane, q)))) {
-      continue;
+      return false;
     }
-    // The line from eye to pixel point crosses the triangle (A, B, -L).
+    // The line from eye to pixel point crosses the triangle.
     const double ab = glm::dot(plane_through(v.eye, q, A), B);
-    const double bl = glm::dot(plane_through(v.eye, q, B), behind);
-    const double la = glm::dot(plane_through(v.eye, q, behind), A);
-    if (!((ab >= 0 && bl >= 0 && la >= 0) || (ab <= 0 && bl <= 0 && la <= 0))) continue;
-    const std::int32_t change = glm::dot(plane, v.eye) > 0 ? -e.multiplicity : e.multiplicity;
+    const double bc = glm::dot(plane_through(v.eye, q, B), C);
+    const double ca = glm::dot(plane_through(v.eye, q, C), A);
+    return (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0);
+  };
+  const Vec4 behind = -a.light;
+  Reach reach{a.counts[pixel], a.counts[pixel]};
+  double distance = 0;
+  for (const SilhouetteEdge& e : a.silhouette) {
+    const Vec4 A = vertex(e.a), B = vertex(e.b);
+    if (!close_by(A, B, behind, distance)) continue;
+    const bool positive = glm::dot(plane_through(A, B, behind), v.eye) > 0;
+    const std::int32_t change = positive ? -e.multiplicity : e.multiplicity;
     // In front of the sample it has been counted and may be missed; behind it the other way round.
     const std::int32_t flip = distance < 0 ? -change : change;
     (flip < 0 ? reach.least : reach.most) += flip;
+  }
+  for (std::uint32_t t = 0; t < scene.mesh.triangles.size() && !reach.other_surface; ++t) {
+    const Triangle& o = scene.mesh.triangles[t];
+    if (t == seen || !receives(scene, t)) continue;
+    const std::array<Vec4, 3> corners{vertex(o[0]), vertex(o[1]), vertex(o[2])};
+    reach.other_surface =
+        close_by(corners[0], corners[1], corners[2], distance) ||
+        depths.passes(corners, static_cast<int>(pixel) % v.width, static_cast<int>(pixel) / v.width,
+                      rounding.pixels, here + rounding.steps);
   }
   return reach;
 }
 
 std::uint8_t is_edge_on(const TriMesh& mesh, std::uint32_t triangle, const Light& light) {
   const Triangle& t = mesh.triangles[triangle];
-  ExactStats stats;
-  light_side(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]], light, stats);
-  return stats.ties > 0 ? 1 : 0;
+  const Vec3 &a = mesh.positions[t[0]], &b = mesh.positions[t[1]], &c = mesh.positions[t[2]];
+  const Vec3 n = glm::cross(b - a, c - a);
+  double longest = 0;
+  for (const Vec3* p : {&a, &b, &c})
+    longest = std::max(longest, glm::length(Vec3(light) - *p * light.w));
+  const double height = glm::dot(n, Vec3(light) - a * light.w);
+  return std::fabs(height) <= kEdgeOn * glm::length(n) * longest ? 1 : 0;
 }
 
 }  // namespace
@@ -187,8 +238,8 @@ MaskDifference& MaskDifference::operator+=(const MaskDifference& o) {
   at_edge += o.at_edge;
   in_depth += o.in_depth;
   unexplained += o.unexplained;
-  for (const std::size_t k : o.first_unexplained)
-    if (first_unexplained.size() < kShown) first_unexplained.push_back(k);
+  for (const Unexplained& u : o.first_unexplained)
+    if (first_unexplained.size() < kShown) first_unexplained.push_back(u);
   return *this;
 }
 
@@ -216,7 +267,7 @@ MaskDifference compare_masks(const ExactAnswers& exact, const ShadowMask& drawn,
     if (rounding.steps > 0 && state != ShadowMask::kNoSample &&
         exact.mask.state[k] != ShadowMask::kNoSample) {
       const Reach reach = reach_of(exact, k, depths, rounding);
-      if (state == ShadowMask::kShadow ? reach.most > 0 : reach.least <= 0) {
+      if (explains(reach, state)) {
         ++d.in_depth;
         continue;
       }
@@ -226,7 +277,15 @@ MaskDifference compare_masks(const ExactAnswers& exact, const ShadowMask& drawn,
       continue;
     }
     ++d.unexplained;
-    if (d.first_unexplained.size() < MaskDifference::kShown) d.first_unexplained.push_back(k);
+    if (d.first_unexplained.size() == MaskDifference::kShown) continue;
+    MaskDifference::Unexplained u{k, exact.view->samples.triangle[k], exact.counts[k], 0};
+    for (double times = 2; times <= kMostTimes && u.times == 0 && u.triangle != kNoTriangle;
+         times *= 2) {
+      const Reach reach =
+          reach_of(exact, k, depths, {1, rounding.steps * times, rounding.pixels * times});
+      if (explains(reach, state)) u.times = times;
+    }
+    d.first_unexplained.push_back(u);
   }
   return d;
 }

@@ -34,7 +34,7 @@ struct ExactAnswers {
   Light light{0, 0, 1, 0};
   ShadowMask mask;                    // of view->samples
   std::vector<std::int32_t> counts;   // n(p); 0 where there is no sample
-  std::vector<std::uint8_t> edge_on;  // 1: the light lies exactly in the receiver's plane
+  std::vector<std::uint8_t> edge_on;  // 1: see MaskDifference
   std::vector<std::uint8_t> finer;    // states of view->finer
   Silhouette silhouette;              // of all casters
   // Per pixel that was looked at more closely: which states occur within a pixel of its centre (bit
@@ -50,6 +50,10 @@ struct DepthBuffer {
   double steps = 16777216;  // 24 bits
 };
 
+// Sine of the angle between a surface and the light below which it counts as edge-on: coordinates
+// in floats have 24 bits, and a normal is a difference of products of them.
+inline constexpr double kEdgeOn = 0x1p-20;
+
 // What rounding may do.
 struct Rounding {
   int edge = 1;       // pixels: how far from a sample an answer that is exact there may lie
@@ -60,19 +64,26 @@ struct Rounding {
 
 struct MaskDifference {
   std::uint64_t samples = 0;
-  // The light lies exactly in the receiver's plane, and so do the sides of shadow volumes over its
-  // edges: only the tie rule says whether it is lit, no depth buffer can, and nothing of the light
-  // falls on it either way. Not counted below.
+  // The light lies in the receiver's plane, or so nearly that floats cannot tell (kEdgeOn), and so
+  // do the sides of shadow volumes over its edges: only the exact sign says whether it is lit, no
+  // depth buffer can, and nothing of the light falls on it either way. Not counted below.
   std::uint64_t edge_on = 0;
   std::uint64_t edge_on_differ = 0;
   std::uint64_t differ = 0;
   // Of these: the answer is exact somewhere within Rounding::edge pixels.
   std::uint64_t at_edge = 0;
   // Of the others: sides so close to the sample that counting them on the other side of it gives
-  // the answer.
+  // the answer, or another surface so close, in depth or with its rim on the screen, that it may be
+  // the one that is seen.
   std::uint64_t in_depth = 0;
   std::uint64_t unexplained = 0;
-  std::vector<std::size_t> first_unexplained;  // pixels, at most kShown
+  struct Unexplained {
+    std::size_t pixel;
+    std::uint32_t triangle;  // that receives
+    std::int32_t count;      // exact
+    double times;            // the rounding that would explain it, in multiples; 0: none does
+  };
+  std::vector<Unexplained> first_unexplained;  // at most kShown
   static constexpr std::size_t kShown = 5;
 
   MaskDifference& operator+=(const MaskDifference& o);

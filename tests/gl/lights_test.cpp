@@ -1,0 +1,119 @@
+// Several lights.
+#include "gl_test.h"
+
+namespace gnomon::gl {
+namespace {
+
+std::vector<LightSource> three_lamps() {
+  std::vector<LightSource> lights(3);
+  lights[0].light = {12, -9, 15, 1};
+  lights[0].colour = {0.5, 0.1, 0.1};
+  lights[1].light = {-14, -6, 9, 1};
+  lights[1].colour = {0.1, 0.5, 0.1};
+  lights[2].light = {0.2, 0.5, 0.4, 0};
+  lights[2].colour = {0.1, 0.1, 0.5};
+  return lights;
+}
+
+Image picture(Renderer& renderer, const Camera& camera, const std::vector<LightSource>& lights,
+              const Method& method) {
+  FrameOptions options;
+  options.method = method;
+  return renderer.render(camera, lights, options).value();
+}
+
+// The largest difference of a colour over the picture.
+int largest_difference(const Image& a, const Image& b) {
+  int most = 0;
+  for (std::size_t i = 0; i < a.rgba.size(); ++i) {
+    if (i % 4 != 3) most = std::max(most, std::abs(int(a.rgba[i]) - int(b.rgba[i])));
+  }
+  return most;
+}
+
+TEST(Lights, EachAddsItsPartByEveryMask) {
+  const Scene scene = test::scene_of(boxes_on_ground());
+  Stage stage = stage_of(scene);
+  const View view = aerial();
+  const Camera camera = camera_of(view, depth_range(scene, view, true));
+  const std::vector<LightSource> lights = three_lamps();
+  const Image all = picture(stage.renderer, camera, lights, {});
+
+  // What each adds alone, summed.
+  FrameOptions dark;
+  const Image none = stage.renderer.render(camera, {}, dark).value();
+  std::vector<int> sum(all.rgba.size());
+  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] = none.rgba[i];
+  for (const LightSource& light : lights) {
+    Method m;
+    m.shadows = Shadows::lights;
+    const Image one = picture(stage.renderer, camera, {light}, m);
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += int(one.rgba[i]) - int(none.rgba[i]);
+  }
+  int most = 0, lit = 0;
+  for (std::size_t i = 0; i < sum.size(); ++i) {
+    if (i % 4 == 3) continue;
+    most = std::max(most, std::abs(std::min(sum[i], 255) - int(all.rgba[i])));
+    lit += all.rgba[i] > none.rgba[i] ? 1 : 0;
+  }
+  EXPECT_LE(most, 1);
+  EXPECT_GT(lit, int(sum.size()) / 4);
+
+  // Lit comes out as 254/255 of an alpha or screen mask: a level for each light.
+  for (const MaskIn mask : {MaskIn::alpha, MaskIn::screen}) {
+    Method m;
+    m.mask = mask;
+    EXPECT_LE(largest_difference(picture(stage.renderer, camera, lights, m), all), 3)
+        << name_of(mask);
+  }
+}
+
+TEST(Lights, OneLightIsTheSameAddedOrTakenBack) {
+  const Scene scene = test::scene_of(boxes_on_ground());
+  Stage stage = stage_of(scene);
+  const View view = aerial();
+  const Camera camera = camera_of(view, depth_range(scene, view, true));
+  Method added, restored;
+  added.shadows = Shadows::lights;
+  restored.shadows = Shadows::restored;
+  const std::vector<LightSource> one{three_lamps()[0]};
+  EXPECT_LE(largest_difference(picture(stage.renderer, camera, one, added),
+                               picture(stage.renderer, camera, one, restored)),
+            1);
+}
+
+TEST(Lights, RadiusEndsALightAndLeavesOutCastersBeyond) {
+  const Scene scene = test::scene_of(boxes_on_ground());
+  const View view = aerial();
+  for (const Api api : {Api::opengl, Api::opengl_es}) {
+    Stage stage = stage_of(scene, api);
+    const Camera camera = camera_of(view, depth_range(scene, view, true));
+    LightSource lamp = three_lamps()[0];
+    lamp.light = {5, -4, 5, 1};
+    lamp.radius = 9;
+    for (const Shadows shadows : {Shadows::lights, Shadows::restored}) {
+      Method m;
+      m.shadows = shadows;
+      const Image small = picture(stage.renderer, camera, {lamp}, m);
+      const Image none = stage.renderer.render(camera, {}, {}).value();
+      int lit = 0;
+      for (std::size_t i = 0; i < small.rgba.size(); i += 4) lit += small.rgba[i] > none.rgba[i];
+      EXPECT_GT(lit, 100);
+      EXPECT_LT(lit, int(small.rgba.size() / 4) / 2);
+      // A box beyond the radius throws no volume, and taking it away changes nothing.
+      FrameOptions options;
+      options.method = m;
+      FrameStats stats;
+      (void)stage.renderer.render(camera, std::span(&lamp, 1), options, &stats).value();
+      lamp.radius = 1000;
+      FrameStats far;
+      (void)stage.renderer.render(camera, std::span(&lamp, 1), options, &far).value();
+      lamp.radius = 9;
+      EXPECT_LT(stats.z_pass_volumes + stats.z_fail_volumes,
+                far.z_pass_volumes + far.z_fail_volumes);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace gnomon::gl
