@@ -412,7 +412,8 @@ TEST(State, UnusualStateOfAnEngineSpoilsNoPictureAndNoMask) {
   std::vector<std::vector<std::uint8_t>> usual, unusual;
   for (const bool second : {false, true}) {
     auto& out = second ? unusual : usual;
-    // Depths of an engine with a depth range of its own.
+    // Depths of an engine with a depth range of its own; the provoking vertex is the same for
+    // depths and mask, as their rounding depends on it.
     glDepthRange(0, second ? 0.5 : 1);
     engine.draw_depths(stage.renderer.clip_of(0, camera));
     if (second) engine.set_unusual_state();
@@ -427,6 +428,7 @@ TEST(State, UnusualStateOfAnEngineSpoilsNoPictureAndNoMask) {
       }
       out.push_back(renderer.mask(camera, source.light, method).value().state);
     }
+    glProvokingVertex(GL_LAST_VERTEX_CONVENTION);
     out.push_back(engine.lit(renderer.draw_mask(camera, source.light, {}).value()));
   }
   const auto different = [&](std::size_t k) {

@@ -166,7 +166,7 @@ bool has_usual_clip_space() {
                                  integer(GL_CLIP_DEPTH_MODE) == GL_NEGATIVE_ONE_TO_ONE);
 }
 
-StateGuard::StateGuard(const PassSupport& support, DepthRangeOf range) : support_(support) {
+StateGuard::StateGuard(const PassSupport& support, DepthsOf depths) : support_(support) {
   static_assert(std::size(kSwitchTable) == kSwitches);
   static_assert(std::size(kPixelStoreTable) == kPixelStores);
   glGetIntegerv(GL_VIEWPORT, viewport_.data());
@@ -185,6 +185,7 @@ StateGuard::StateGuard(const PassSupport& support, DepthRangeOf range) : support
   restart_ = glIsEnabled(desktop() ? GL_PRIMITIVE_RESTART : GL_PRIMITIVE_RESTART_FIXED_INDEX);
   if (desktop()) {
     restart_index_ = integer(GL_PRIMITIVE_RESTART_INDEX);
+    provoking_vertex_ = integer(GL_PROVOKING_VERTEX);
     glGetIntegerv(GL_POLYGON_MODE, polygon_mode_.data());
   }
   if (support_.depth_clamp) clamp_ = glIsEnabled(GL_DEPTH_CLAMP);
@@ -234,8 +235,9 @@ StateGuard::StateGuard(const PassSupport& support, DepthRangeOf range) : support
     if (there(p.api)) glPixelStorei(p.what, p.value);
   }
   glLineWidth(1);
-  if (range == DepthRangeOf::ours) {
+  if (depths == DepthsOf::ours) {
     glDepthRangef(0, 1);
+    if (desktop()) glProvokingVertex(GL_LAST_VERTEX_CONVENTION);
     if (has_clip_control()) glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
   }
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
@@ -274,6 +276,7 @@ StateGuard::~StateGuard() {
   enable(desktop() ? GL_PRIMITIVE_RESTART : GL_PRIMITIVE_RESTART_FIXED_INDEX, restart_);
   if (desktop()) {
     glPrimitiveRestartIndex(static_cast<GLuint>(restart_index_));
+    glProvokingVertex(static_cast<GLenum>(provoking_vertex_));
     glPolygonMode(GL_FRONT_AND_BACK, static_cast<GLenum>(polygon_mode_[0]));
   }
   if (support_.depth_clamp) enable(GL_DEPTH_CLAMP, clamp_);

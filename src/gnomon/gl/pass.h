@@ -52,14 +52,15 @@ void apply(const Pass& pass, const PassSupport& support);
 // `units` of the smallest depth step. 0, 0: no more. Passes do not change it.
 void offset_depth(float factor, float units);
 
-// Whose framebuffer is drawn to. Depths in the caller's were drawn in the caller's depth range.
-enum class DepthRangeOf { ours, caller };
+// Whose framebuffer is drawn to. Depths in the caller's were drawn in the caller's depth range, and
+// with the caller's provoking vertex, on which their rounding depends (llvmpipe).
+enum class DepthsOf { ours, caller };
 
 // The caller's state: everything that this room touches, taken when made, put back when destroyed.
 // In between, what could spoil a pass is at its default.
 class StateGuard {
  public:
-  explicit StateGuard(const PassSupport& support, DepthRangeOf range = DepthRangeOf::ours);
+  explicit StateGuard(const PassSupport& support, DepthsOf depths = DepthsOf::ours);
   ~StateGuard();
   StateGuard(const StateGuard&) = delete;
   StateGuard& operator=(const StateGuard&) = delete;
@@ -95,7 +96,8 @@ class StateGuard {
   GLfloat clear_depth_ = 1;
   GLint clear_stencil_ = 0, depth_func_, cull_face_, front_face_, program_, vertex_array_,
         array_buffer_, draw_framebuffer_, read_framebuffer_, renderbuffer_, active_texture_,
-        restart_index_ = 0, pack_buffer_, unpack_buffer_, clip_origin_ = 0, clip_depth_ = 0;
+        restart_index_ = 0, pack_buffer_, unpack_buffer_, clip_origin_ = 0, clip_depth_ = 0,
+        provoking_vertex_ = 0;
   std::array<GLint, 2> polygon_mode_{};
   std::array<GLint, 4> textures_{}, samplers_{};  // of the units that this room uses
   Face front_, back_;

@@ -544,7 +544,7 @@ Result<FrameStats> Renderer::draw_mask(const Camera& camera, const Light& light,
         "needs "
         "floats, which are counted in a framebuffer of our own only. Take --method stencil."};
   }
-  const StateGuard guard(state_->support, DepthRangeOf::caller);
+  const StateGuard guard(state_->support, DepthsOf::caller);
   const Result<LitTest> lit = draw_light_mask(frame, plan.value(), nullptr);
   if (!lit) return lit.error();
   counted.lit_at_most = lit.value().ref;
