@@ -192,8 +192,9 @@ Result<Method> decide(Method m, const Situation& s, const Capabilities& c) {
         "take --count auto, zfail or near-cap.");
   }
   if (s.parallel_view && !s.directional_light && m.reach == Reach::infinite && !m.unchecked &&
-      (m.count == Count::z_fail ||
-       ((m.count == Count::automatic || m.count == Count::mixed) && s.near_shaded))) {
+      (m.count == Count::z_fail || ((m.count == Count::near_cap || m.count == Count::zp_plus ||
+                                     m.count == Count::automatic || m.count == Count::mixed) &&
+                                    s.near_shaded))) {
     return refuse(
         "Rays of a parallel view may run inside a lamp's volume for ever, and its dark cap at "
         "infinity has no place in the picture: take --reach bounded, or raise the lamp.");

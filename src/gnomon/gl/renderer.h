@@ -125,12 +125,13 @@ class Renderer {
                           FrameStats* stats = nullptr);
 
   // Inside an engine (docs/engine.md). The framebuffer that is bound for drawing holds the depths
-  // of the scene, drawn with clip_of() (see there) in the viewport, depth range and provoking vertex
-  // that are set; nearer depths are less. Afterwards a sample is in shadow where, by method.mask, in the stencil
-  // (stencil & lit_bits) > lit_at_most, see FrameStats; or where alpha is below one half. Colours
-  // (alpha: rgb) and depths are not touched. Errors: decide()'s reasons; a screen mask or one of
-  // lower resolution, or one in floats (see Method), which need a framebuffer of ours; a clip space
-  // that is not OpenGL's usual one. Precondition: no query and no transform feedback is active.
+  // of the scene, drawn with clip_of() (see there) in the viewport, depth range and provoking
+  // vertex that are set; nearer depths are less. Afterwards a sample is in shadow where, by
+  // method.mask, in the stencil (stencil & lit_bits) > lit_at_most, see FrameStats; or where alpha
+  // is below one half. Colours (alpha: rgb) and depths are not touched. Errors: decide()'s reasons;
+  // a screen mask or one of lower resolution, or one in floats (see Method), which need a
+  // framebuffer of ours; a clip space that is not OpenGL's usual one. Precondition: no query and no
+  // transform feedback is active.
   Result<FrameStats> draw_mask(const Camera& camera, const Light& light, const Method& method);
 
   // For an engine's own vertex shaders: "invariant gl_Position; gl_Position = m * vec4(position,
