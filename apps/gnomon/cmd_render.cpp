@@ -57,14 +57,6 @@ Picture picture_of(const ShadowMask& mask) {
   return out;
 }
 
-// Azimuth in the scene's grid from the model to the light: automatic cameras look from that side.
-double light_azimuth(const Scene& scene, const Light& light) {
-  if (light.w == 0) return std::atan2(light.x, light.y);
-  const Box box = model_box(scene);
-  const Vec3 middle = (box.lo + box.hi) * 0.5;
-  return std::atan2(light.x - middle.x, light.y - middle.y);
-}
-
 void run(const Options& o) {
   gl::HeadlessContext context =
       take(gl::HeadlessContext::create(o.api == "gles" ? gl::Api::opengl_es : gl::Api::opengl));

@@ -66,14 +66,6 @@ std::string sun_text(const ChosenLight& light) {
                      light.altitude / kDegree);
 }
 
-// Azimuth in the scene's grid from the model to the light: automatic cameras look from that side.
-double light_azimuth(const Scene& scene, const Light& light) {
-  if (light.w == 0) return std::atan2(light.x, light.y);
-  const Box box = model_box(scene);
-  const Vec3 middle = (box.lo + box.hi) * 0.5;
-  return std::atan2(light.x - middle.x, light.y - middle.y);
-}
-
 Json light_json(const ChosenLight& light, const Vec3& origin) {
   const Light& l = light.light;
   Json out;

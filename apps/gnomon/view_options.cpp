@@ -175,6 +175,13 @@ Box model_box(const Scene& scene) {
   return box;
 }
 
+double light_azimuth(const Scene& scene, const Light& light) {
+  if (light.w == 0) return std::atan2(light.x, light.y);
+  const Box box = model_box(scene);
+  const Vec3 middle = (box.lo + box.hi) * 0.5;
+  return std::atan2(light.x - middle.x, light.y - middle.y);
+}
+
 std::string without_sample(const Scene& scene) {
   const bool all = std::all_of(scene.surfaces.begin(), scene.surfaces.end(),
                                [](const Surface& s) { return s.receives; });

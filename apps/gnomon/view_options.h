@@ -31,6 +31,10 @@ struct Box {
 };
 Box model_box(const Scene& scene);
 
+// Azimuth in the scene's grid, radians, from the model to the light: automatic cameras look from
+// that side.
+double light_azimuth(const Scene& scene, const Light& light);
+
 // The legend's word for what the map leaves out: surfaces that do not receive, or none at all.
 std::string without_sample(const Scene& scene);
 
