@@ -35,13 +35,10 @@ enum class Reach : std::uint8_t { automatic, infinite, bounded };
 enum class Primitives : std::uint8_t { quads, strips, fans };
 
 // What becomes of the mask. lights: each light adds its part where it is not shadowed (Everitt and
-// Kilgard, 3.3). restored: one light is drawn with everything else at once, and where it is
-// shadowed the picture without it is put back: the same, with less to blend. The next are the
-// first paper's for one light: black; ambient: and an ambient term added; attenuated: the lit scene
-// at half its brightness. none: there are no shadows, as a measure of what they cost; the first
-// light is drawn with the ambient term in one pass. automatic: restored for one light in the
-// stencil, else lights.
-enum class Shadows : std::uint8_t { automatic, lights, restored, black, ambient, attenuated, none };
+// Kilgard, 3.3). The next are the first paper's for one light: black; ambient: and an ambient term
+// added; attenuated: the lit scene at half its brightness. none: there are no shadows, as a measure
+// of what they cost; the first light is drawn with the ambient term in one pass. automatic: lights.
+enum class Shadows : std::uint8_t { automatic, lights, black, ambient, attenuated, none };
 
 struct Method {
   MaskIn mask = MaskIn::stencil;

@@ -12,13 +12,16 @@ std::uint32_t far_vertex(std::uint32_t v) { return 2 * v + 1; }
 // The side over the edge (a, b), counterclockwise where it is entered if it is not turned. Both
 // halves meet in the diagonal from a to b at infinity; a strip along a loop splits its quads in the
 // same way.
-void push_side(VolumeLists& lists, std::uint32_t a, std::uint32_t b, bool turned, bool one_point) {
+void push_side(VolumeLists& lists, std::uint32_t a, std::uint32_t b, bool turned, bool one_point,
+               std::span<const std::uint8_t> beyond) {
   std::vector<std::uint32_t>& list = lists.lists[turned ? kSidesTurned : kSides];
   if (one_point) {
     list.insert(list.end(), {far_vertex(a), near_vertex(a), near_vertex(b)});
   } else {
-    list.insert(list.end(), {far_vertex(a), near_vertex(a), far_vertex(b),  //
-                             far_vertex(b), near_vertex(a), near_vertex(b)});
+    const bool no_a = !beyond.empty() && beyond[a] != 0;
+    const bool no_b = !beyond.empty() && beyond[b] != 0;
+    if (!no_a) list.insert(list.end(), {far_vertex(a), near_vertex(a), far_vertex(b)});
+    if (!no_a || !no_b) list.insert(list.end(), {far_vertex(b), near_vertex(a), near_vertex(b)});
   }
 }
 
@@ -95,14 +98,14 @@ void append_volume(VolumeLists& lists, const TriMesh& mesh,
                    std::span<const SilhouetteEdge> silhouette,
                    std::span<const std::uint32_t> triangles, std::span<const std::int8_t> sides,
                    bool one_point, Casting casting, SideForm form, std::uint32_t caster,
-                   LoopScratch& scratch) {
+                   std::span<const std::uint8_t> beyond, LoopScratch& scratch) {
   const Volume volume = begin_volume(lists, caster);
   if (form == SideForm::triangles) {
     // The weight of the side over (a, b, b at infinity, a at infinity) is minus the multiplicity,
     // and a polygon of weight -1 counts +1 where it is seen counterclockwise (shadow_volume.h).
     for (const SilhouetteEdge& e : silhouette) {
       for (int i = 0; i < std::abs(e.multiplicity); ++i)
-        push_side(lists, e.a, e.b, e.multiplicity < 0, one_point);
+        push_side(lists, e.a, e.b, e.multiplicity < 0, one_point, beyond);
     }
   } else {
     push_loops(lists.lists[kSides], find_loops(silhouette, &scratch), form);
@@ -114,12 +117,14 @@ void append_volume(VolumeLists& lists, const TriMesh& mesh,
 }
 
 void append_prism(VolumeLists& lists, const TriMesh& mesh, std::uint32_t triangle,
-                  std::int8_t light_side, bool one_point, std::uint32_t caster) {
+                  std::int8_t light_side, bool one_point, std::uint32_t caster,
+                  std::span<const std::uint8_t> beyond) {
   Volume volume = begin_volume(lists, caster);
   const Triangle& t = mesh.triangles[triangle];
   for (int i = 0; i < 3; ++i) {
     const std::uint32_t a = t[i], b = t[(i + 1) % 3];
-    push_side(lists, std::min(a, b), std::max(a, b), (a < b) != (light_side > 0), one_point);
+    push_side(lists, std::min(a, b), std::max(a, b), (a < b) != (light_side > 0), one_point,
+              beyond);
   }
   push_caps(lists, t, light_side, one_point);
   end_volume(lists, volume);
