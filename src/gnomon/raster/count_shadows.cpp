@@ -220,8 +220,9 @@ void set_up_light(LightSetup& s, const Casters& casters, const Receivers& r, con
   const ScreenPoint<Bound> light_bound = project_bound(v.space, glm::abs(s.light));
   const EquationErrors errors =
       equation_errors(v.screen.bound, v.screen.bound, light_bound, r.view.width, r.view.height);
-  s.polygons.reserve(s.silhouette.size());
-  for (std::uint32_t i = 0; i < s.silhouette.size(); ++i) {
+  const std::size_t sides_in_front = looks_with_light(r.view, s.light) ? 0 : s.silhouette.size();
+  s.polygons.reserve(sides_in_front);
+  for (std::uint32_t i = 0; i < sides_in_front; ++i) {
     add_side(s, v, casters, r.view, errors, minus_light, light_bound, i);
   }
   s.sides = s.polygons.size();

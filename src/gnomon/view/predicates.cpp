@@ -136,6 +136,17 @@ bool seen_edge_on(const View& view, const Vec3& a, const Vec3& b, const Vec3& c)
   return !f.operator()<Approx>(0, 0, 0).certain() && f.operator()<Dyadic>(0, 0, 0).sign() == 0;
 }
 
+bool looks_with_light(const View& view, const Light& light) {
+  if (!is_parallel(view) || light.w != 0) return false;
+  using D = Dyadic;
+  const Vec3 e(view.eye), l(light);
+  for (int k = 0; k < 3; ++k) {
+    const int i = (k + 1) % 3, j = (k + 2) % 3;
+    if ((D(e[i]) * D(l[j]) - D(e[j]) * D(l[i])).sign() != 0) return false;
+  }
+  return (D(e.x) * D(l.x) + D(e.y) * D(l.y) + D(e.z) * D(l.z)).sign() > 0;
+}
+
 bool seen_end_on(const View& view, const Vec3& p, const Vec3& r) {
   // Seen from above every vertical wall edge is one: no arithmetic needed.
   if (is_parallel(view) && view.eye.x == 0 && view.eye.y == 0) return p.x == r.x && p.y == r.y;

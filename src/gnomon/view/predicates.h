@@ -60,4 +60,9 @@ bool seen_end_on(const View& view, const Vec3& p, const Vec3& r);
 // all on one side of infinity.
 bool seen_edge_on(const View& view, const Vec3& a, const Vec3& b, const Vec3& c);
 
+// True if a parallel view looks exactly the way that the light's rays run: what the eye sees first,
+// the light meets first, and no side of a shadow volume is in front of any sample
+// (docs/exactness.md).
+bool looks_with_light(const View& view, const Light& light);
+
 }  // namespace gnomon
