@@ -106,6 +106,18 @@ bool in_front(const View& view, int column, int row, const Corners& c, int facin
   return s * facing_c * facing_r < 0;
 }
 
+bool in_one_plane(const Corners& c, const Corners& r, const Light& light) {
+  const auto in_plane = [&]<class T>(const Corner& corner, T) {
+    return det4<T>(lift<T>(r[0].at), lift<T>(r[1].at), lift<T>(r[2].at),
+                   corner_of<T>(corner, light, 0));
+  };
+  for (const Corner& corner : c) {
+    if (in_plane(corner, Approx(0.0)).certain()) return false;
+    if (in_plane(corner, Dyadic()).sign() != 0) return false;
+  }
+  return true;
+}
+
 bool covers(const View& view, int column, int row, const Corners& c, int facing_c,
             const Light& light, ExactStats& stats) {
   for (int k = 0; k < 3; ++k) {

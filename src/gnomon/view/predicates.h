@@ -41,6 +41,10 @@ int edge_side(const View& view, int column, int row, const Corner& p, const Corn
 bool in_front(const View& view, int column, int row, const Corners& c, int facing_c,
               const Corners& r, int facing_r, const Light& light, ExactStats& stats);
 
+// True if the polygon `c` lies in the plane of the triangle `r` (three vertices), exactly, before
+// any tie rule. Then in_front() says the same for all pixels that both cover.
+bool in_one_plane(const Corners& c, const Corners& r, const Light& light);
+
 // True if the pixel's centre is inside the polygon as seen from the eye: all three edge sides agree
 // with the facing.
 bool covers(const View& view, int column, int row, const Corners& c, int facing_c,
