@@ -152,6 +152,39 @@ TEST(NearPlane, SidesBeforeItAreNotCountedWithDepthClamp) {
   }
 }
 
+// A folded strip above the eye: one lit region, of more layers than eight bits count.
+TEST(Mixed, CountsARegionOfMoreLayersThanTheStencilHolds) {
+  TriMesh m;
+  test::add_ground(m, 40);
+  constexpr int kFolds = 340;  // modulo 128 more than half of it: a group that holds all is lit
+  const auto first = static_cast<std::uint32_t>(m.positions.size());
+  for (int k = 0; k <= kFolds; ++k) {
+    const double x = k % 2 == 0 ? -3 : 3;
+    m.positions.insert(m.positions.end(), {Vec3(x, -3, 8 + 0.01 * k), Vec3(x, 3, 8 + 0.01 * k)});
+  }
+  for (std::uint32_t k = 0; k < kFolds; ++k) {
+    const std::uint32_t a = first + 2 * k;
+    m.triangles.insert(m.triangles.end(), {{a, a + 1, a + 2}, {a + 2, a + 1, a + 3}});
+  }
+  const Scene scene = test::scene_of(std::move(m));
+  const View view = perspective_view({-2, 0, 4}, {10, 0, 0}, {0, 0, 1}, 1.2, 64, 48);
+  const Camera camera = camera_of(view, depth_range(scene, view, true));
+  const Light sun(0.03, 0.02, 1, 0);
+  const ShadowMask exact = exact_mask(scene, sun, view);
+  ASSERT_GT(std::count(exact.state.begin(), exact.state.end(), ShadowMask::kShadow), 100);
+  Stage stage = stage_of(scene);
+  for (const Count count : {Count::mixed, Count::automatic}) {
+    for (const StencilPasses passes : {StencilPasses::two_sided, StencilPasses::culled}) {
+      Method method;
+      method.count = count;
+      method.passes = passes;
+      method.ops = passes == StencilPasses::culled ? StencilOps::saturate : StencilOps::wrap;
+      EXPECT_LE(compare(stage.renderer.mask(camera, sun, method).value(), exact).pixels, 5)
+          << describe(method);
+    }
+  }
+}
+
 TEST(Pairs, KeepTheirBoundsOnOpenGlEs) {
   const Scene scene = test::scene_of(boxes_on_ground());
   EXPECT_GT(try_pairs(scene, small_aerial(), kLights, Api::opengl_es).drawn, 80);

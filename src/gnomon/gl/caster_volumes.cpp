@@ -28,7 +28,8 @@ struct Builder {
   std::vector<std::uint8_t> beyond_receivers{};  // per vertex
   LoopScratch scratch{};
   Silhouette silhouette{};
-  std::vector<std::uint32_t> chunk_of{};  // per triangle; of parts in several volumes
+  std::vector<std::uint32_t> chunk_of{};  // per triangle; 0: of what is in no chunk
+  std::uint32_t chunks = 0;               // so far
 
   void note(bool polygon, std::uint32_t layers) {
     v.polygon.push_back(polygon ? 1 : 0);
@@ -78,19 +79,22 @@ struct Builder {
       append_group(p, m.parts.part_of, p, part.triangles, layers);
       return;
     }
+    append_chunks(p, part.triangles);
+  }
+
+  // Casting triangles of a part in volumes of at most most_layers of them.
+  void append_chunks(std::uint32_t p, std::span<const std::uint32_t> triangles) {
     chunk_of.resize(m.mesh.triangles.size(), 0);
     std::vector<std::uint32_t> chunk;
-    std::uint32_t number = 0;
     const auto flush = [&] {
       if (!chunk.empty())
-        append_group(p, chunk_of, number, chunk, static_cast<std::uint32_t>(chunk.size()));
+        append_group(p, chunk_of, chunks, chunk, static_cast<std::uint32_t>(chunk.size()));
       chunk.clear();
     };
-    for (const std::uint32_t t : part.triangles) chunk_of[t] = 0;
-    for (const std::uint32_t t : part.triangles) {
-      if (!casts(plan.casting, v.light_side[t])) continue;
-      if (chunk.empty()) ++number;
-      chunk_of[t] = number;
+    for (const std::uint32_t t : triangles) {
+      if (!casts(v.plan[p].casting, v.light_side[t])) continue;
+      if (chunk.empty()) ++chunks;
+      chunk_of[t] = chunks;
       chunk.push_back(t);
       if (chunk.size() == v.most_layers) flush();
     }
@@ -101,6 +105,10 @@ struct Builder {
     for (std::uint32_t r = 0; r < v.regions.size(); ++r) {
       if ((v.region_z_fail[r] != 0) != z_fail) continue;
       const auto triangles = v.regions.triangles_of(r);
+      if (v.most_layers != 0 && triangles.size() > v.most_layers) {
+        append_chunks(m.parts.part_of[triangles[0]], triangles);
+        continue;
+      }
       append_volume(v.lists, m.mesh, v.regions.silhouette_of(r), triangles, v.light_side, one_point,
                     Casting::all_triangles, form, m.parts.part_of[triangles[0]], beyond(z_fail),
                     scratch);
