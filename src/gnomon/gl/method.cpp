@@ -154,8 +154,8 @@ Result<Method> decide(Method m, const Situation& s, const Capabilities& c) {
         "--reach bounded.");
   }
   if (m.reach == Reach::automatic) {
-    const bool infinite =
-        !s.can_bound || m.extrusion == Extrusion::blend_large || m.primitives == Primitives::fans;
+    const bool infinite = !s.can_bound || s.foreign_receivers ||
+                          m.extrusion == Extrusion::blend_large || m.primitives == Primitives::fans;
     m.reach = infinite ? Reach::infinite : Reach::bounded;
   }
   if (m.reach == Reach::bounded && !s.can_bound) {

@@ -30,7 +30,8 @@ enum class Arithmetic : std::uint8_t { doubling, maximum };  // of alpha and scr
 enum class FarPlane : std::uint8_t { automatic, infinite, clamp };
 enum class Extrusion : std::uint8_t { cpu, shader, blend, blend_large };
 // How far volumes reach: to infinity, as the papers have them, or to a plane beyond everything that
-// can be seen, where light, casters and eye allow one; it saves filling what lies below the ground.
+// receives, where light, casters and eye allow one; it saves filling what lies below the ground.
+// automatic: bounded where it can be, but infinite in another renderer's framebuffer.
 enum class Reach : std::uint8_t { automatic, infinite, bounded };
 enum class Primitives : std::uint8_t { quads, strips, fans };
 
@@ -74,8 +75,9 @@ struct Situation {
   bool near_shaded = false;          // some caster may shade the near rectangle (near clip volume)
   bool target_stencil = true;        // the framebuffer can have a stencil attachment
   bool target_alpha = true;
-  bool infinite_view = true;  // the view's far plane can be at infinity
-  bool can_bound = false;     // there is a plane for Reach::bounded
+  bool infinite_view = true;       // the view's far plane can be at infinity
+  bool can_bound = false;          // there is a plane for Reach::bounded
+  bool foreign_receivers = false;  // more may be seen than the casters and receivers that are known
   int lights = 1;
 };
 

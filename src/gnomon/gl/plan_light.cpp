@@ -213,6 +213,7 @@ Result<LightPlan> plan_light(const Frame& frame, const Light& asked, double radi
   s.target_alpha = target.alpha;
   s.infinite_view = camera.infinite;
   s.lights = target.lights;
+  s.foreign_receivers = target.foreign;
 
   plan.instances.resize(state.instances.size());
   std::vector<std::vector<bool>> shades(state.instances.size());
@@ -232,7 +233,8 @@ Result<LightPlan> plan_light(const Frame& frame, const Light& asked, double radi
     const Box3 near_box = box_of(rectangle);
     out.near = near_clip_volume(rectangle, out.light);
     const Box3 light_box{Vec3(out.light), Vec3(out.light)};
-    if (culls_back_faces(frame, instance, mesh)) out.caps_in_front = CapsInFront::seen_from_behind;
+    if (target.foreign || culls_back_faces(frame, instance, mesh))
+      out.caps_in_front = CapsInFront::seen_from_behind;
     out.parts.resize(mesh.parts.parts.size());
     shades[i].resize(mesh.parts.parts.size());
     for (std::size_t p = 0; p < mesh.parts.parts.size(); ++p) {

@@ -531,7 +531,7 @@ Result<FrameStats> Renderer::draw_mask(const Camera& camera, const Light& light,
                                         bound == 0 ? GL_BACK_LEFT : GL_COLOR_ATTACHMENT0,
                                         GL_FRAMEBUFFER_ATTACHMENT_ALPHA_SIZE, &alpha_bits);
   Result<LightPlan> plan =
-      plan_light(frame, light, 0, 0, method, {stencil_bits != GL_NONE, alpha_bits > 0, 1});
+      plan_light(frame, light, 0, 0, method, {stencil_bits != GL_NONE, alpha_bits > 0, 1, true});
   if (!plan) return plan.error();
   counted.method = plan.value().method;
   if (counted.method.float_bits > 0) {

@@ -92,6 +92,7 @@ struct LightPlan {
 struct TargetFacts {
   bool stencil = true, alpha = true;
   int lights = 1;
+  bool foreign = false;  // its depths are another renderer's, maybe of more than was added here
 };
 // `radius`: the light ends there, metres; 0: it does not end.
 Result<LightPlan> plan_light(const Frame& frame, const Light& light, double radius,
