@@ -59,9 +59,9 @@ void draw_range(const Frame& frame, const IndexRange& range, GLenum primitive = 
 
 // Sides that start at an edge of a triangle whose plane holds the light lie in that plane. Exactly,
 // they are just behind whatever lies there and is seen from its lit side, and just before what is
-// seen from its unlit one, which count_unlit_receivers() shades; so where there are such triangles,
-// all sides are drawn a little farther away than they are: by the rounding of depths, and that of
-// corners to a 256th of a pixel, eight times over.
+// seen from its unlit one, which count_unlit_receivers() shades; so where such triangles receive,
+// these sides (no others: their shadows' edges would move) are drawn a little farther away than
+// they are: by the rounding of depths, and that of corners to a 256th of a pixel.
 constexpr float kOffsetSlope = 1.0f / 256, kOffsetSteps = 2;
 
 // Which lists a way of counting draws: z-fail the whole surface of the volume, z-pass its sides,
@@ -70,19 +70,24 @@ void draw_lists(const Frame& frame, const Method& m,
                 const std::array<IndexRange, kListKinds>& ranges, bool z_fail, bool caps,
                 bool turned, bool offset) {
   const int first = turned ? kSidesTurned : kSides;
-  if (offset) offset_depth(kOffsetSlope, kOffsetSteps);
-  draw_range(frame, ranges[first],
-             m.primitives == Primitives::strips ? GL_TRIANGLE_STRIP
-             : m.primitives == Primitives::fans ? GL_TRIANGLE_FAN
-                                                : GL_TRIANGLES);
-  if (offset) offset_depth(0, 0);
+  const GLenum primitive = m.primitives == Primitives::strips ? GL_TRIANGLE_STRIP
+                           : m.primitives == Primitives::fans ? GL_TRIANGLE_FAN
+                                                              : GL_TRIANGLES;
+  draw_range(frame, ranges[first], primitive);
+  if (ranges[first + kGrazingSides].count > 0) {
+    if (offset) offset_depth(kOffsetSlope, kOffsetSteps);
+    draw_range(frame, ranges[first + kGrazingSides], primitive);
+    if (offset) offset_depth(0, 0);
+  }
   if (z_fail || caps) draw_range(frame, ranges[first + kLightCap]);
   if (z_fail) draw_range(frame, ranges[first + kDarkCap]);
 }
 
 bool any(const std::array<IndexRange, kListKinds>& ranges, bool turned) {
   const int first = turned ? kSidesTurned : kSides;
-  return ranges[first].count + ranges[first + kLightCap].count + ranges[first + kDarkCap].count > 0;
+  return ranges[first].count + ranges[first + kGrazingSides].count +
+             ranges[first + kLightCap].count + ranges[first + kDarkCap].count >
+         0;
 }
 
 // The cut of every volume with the near plane, in clip space, z-pass's start ("Shadow Volumes
