@@ -100,6 +100,33 @@ TEST(Reach, BoundedByAnUprightPlaneIsExact) {
   }
 }
 
+// One box on the ground, seen from above: of the six sides below its outline two lie under the
+// ground, and so does half of the two under its upright edges.
+TEST(Reach, SidesBeyondTheReceiversAreLeftOutWhereZPassCounts) {
+  TriMesh mesh;
+  test::add_ground(mesh, 40);
+  test::add_box(mesh, {-1, -1, 0}, {1, 1, 3});
+  const Scene scene = test::scene_of(std::move(mesh));
+  Stage stage = stage_of(scene);
+  const View view = aerial();
+  const Camera camera = camera_of(view, depth_range(scene, view, true));
+  const Light lamp(-9, 8, 12, 1);
+  const auto triangles = [&](Count count, Reach reach) {
+    Method m;
+    m.count = count;
+    m.reach = reach;
+    FrameStats stats;
+    const ShadowMask mask = stage.renderer.mask(camera, lamp, m, &stats).value();
+    EXPECT_LE(compare(mask, exact_mask(scene, lamp, view)).pixels, 4) << describe(m);
+    return stats.volume_triangles;
+  };
+  // Triangles: under the box's outline and the ground's; of the lit faces of both.
+  constexpr long long box = 12, ground = 8, caps = 6 + 2;
+  EXPECT_EQ(triangles(Count::z_pass, Reach::infinite), box + ground + caps);
+  EXPECT_EQ(triangles(Count::z_pass, Reach::bounded), box / 2 + caps);
+  EXPECT_EQ(triangles(Count::z_fail, Reach::bounded), box + ground + 2 * caps);
+}
+
 // A plate shades the eye but not the near rectangle: its side passes between them.
 TEST(NearPlane, SidesBeforeItAreNotCountedWithDepthClamp) {
   TriMesh m;

@@ -25,6 +25,7 @@ struct Builder {
   const GpuMesh& m;
   bool one_point;
   SideForm form;
+  std::vector<std::uint8_t> beyond_receivers{};  // per vertex
   LoopScratch scratch{};
   Silhouette silhouette{};
   std::vector<std::uint32_t> chunk_of{};  // per triangle; 0: of what is in no chunk
@@ -41,6 +42,12 @@ struct Builder {
     return n;
   }
 
+  // z-fail counts what lies behind the receivers, and needs it all.
+  std::span<const std::uint8_t> beyond(bool z_fail) const {
+    if (z_fail) return {};
+    return beyond_receivers;
+  }
+
   void append_group(std::uint32_t p, std::span<const std::uint32_t> group_of, std::uint32_t group,
                     std::span<const std::uint32_t> triangles, std::uint32_t layers) {
     const std::span<const std::uint32_t> edges(m.part_edges.edge.data() + m.part_edges.first[p],
@@ -49,7 +56,7 @@ struct Builder {
     find_part_silhouette(silhouette, m.edges, edges, group_of, group, v.light_side,
                          v.plan[p].casting);
     append_volume(v.lists, m.mesh, silhouette, triangles, v.light_side, one_point,
-                  v.plan[p].casting, form, p, scratch, v.grazed_edges);
+                  v.plan[p].casting, form, p, beyond(v.plan[p].z_fail), scratch, v.grazed_edges);
     note(false, layers);
   }
 
@@ -60,7 +67,8 @@ struct Builder {
     if (plan.by_polygon) {
       for (const std::uint32_t t : part.triangles) {
         if (!casts(plan.casting, v.light_side[t])) continue;
-        append_prism(v.lists, m.mesh, t, v.light_side[t], one_point, p, v.grazed_edges);
+        append_prism(v.lists, m.mesh, t, v.light_side[t], one_point, p, beyond(plan.z_fail),
+                     v.grazed_edges);
         note(true, 1);
       }
       return;
@@ -103,8 +111,8 @@ struct Builder {
         continue;
       }
       append_volume(v.lists, m.mesh, v.regions.silhouette_of(r), triangles, v.light_side, one_point,
-                    Casting::all_triangles, form, m.parts.part_of[triangles[0]], scratch,
-                    v.grazed_edges);
+                    Casting::all_triangles, form, m.parts.part_of[triangles[0]], beyond(z_fail),
+                    scratch, v.grazed_edges);
       note(false, static_cast<std::uint32_t>(triangles.size()));
     }
   }
@@ -194,7 +202,8 @@ bool update_sides(CasterVolumes& v, const GpuMesh& m, std::uint64_t mesh_version
 }
 
 bool update_lists(CasterVolumes& v, const GpuMesh& m, const Method& method, const NearClip& near,
-                  const glm::mat4& project, std::uint32_t most_layers, bool sides_changed) {
+                  const glm::mat4& project, const Vec4& receivers, std::uint32_t most_layers,
+                  bool sides_changed) {
   // Not so of a bounding plane across x, which leaves [0][0] at 0 too.
   const glm::vec4 none(0.0f);
   const bool one_point =
@@ -204,7 +213,8 @@ bool update_lists(CasterVolumes& v, const GpuMesh& m, const Method& method, cons
     region_z_fail[r] = may_any_shade_near(near, m.mesh, v.regions.triangles_of(r)) ? 1 : 0;
   if (!sides_changed && v.region_z_fail == region_z_fail && v.extrusion == method.extrusion &&
       v.primitives == method.primitives && v.most_layers == most_layers &&
-      v.one_point == one_point && (method.extrusion != Extrusion::cpu || v.project == project)) {
+      v.one_point == one_point && v.receivers == receivers &&
+      (method.extrusion != Extrusion::cpu || v.project == project)) {
     return false;
   }
   v.region_z_fail = std::move(region_z_fail);
@@ -213,11 +223,16 @@ bool update_lists(CasterVolumes& v, const GpuMesh& m, const Method& method, cons
   v.most_layers = most_layers;
   v.one_point = one_point;
   v.project = project;
+  v.receivers = receivers;
 
   v.lists = {};
   v.polygon.clear();
   v.layers_of.clear();
   Builder builder{v, m, v.one_point, form_of(method.primitives)};
+  if (receivers != Vec4(0, 0, 0, 1)) {
+    for (const Vec3& p : m.mesh.positions)
+      builder.beyond_receivers.push_back(glm::dot(receivers, point(p)) <= 0 ? 1 : 0);
+  }
   for (const bool z_fail : {true, false}) {
     for (std::uint32_t p = 0; p < v.plan.size(); ++p) {
       if (!v.plan[p].by_region && v.plan[p].z_fail == z_fail) builder.append_part(p);

@@ -64,23 +64,39 @@ void draw_range(const Frame& frame, const IndexRange& range, GLenum primitive = 
 // they are: by the rounding of depths, and that of corners to a 256th of a pixel.
 constexpr float kOffsetSlope = 1.0f / 256, kOffsetSteps = 2;
 
-// Which lists a way of counting draws: z-fail the whole surface of the volume, z-pass its sides,
-// and the light caps of casters that are not seen themselves.
-void draw_lists(const Frame& frame, const Method& m,
-                const std::array<IndexRange, kListKinds>& ranges, bool z_fail, bool caps,
-                bool turned, bool offset) {
-  const int first = turned ? kSidesTurned : kSides;
+void draw_sides(const Frame& frame, const Method& m,
+                const std::array<IndexRange, kListKinds>& ranges, bool turned, bool offset) {
   const GLenum primitive = m.primitives == Primitives::strips ? GL_TRIANGLE_STRIP
                            : m.primitives == Primitives::fans ? GL_TRIANGLE_FAN
                                                               : GL_TRIANGLES;
-  draw_range(frame, ranges[first], primitive);
-  if (ranges[first + kGrazingSides].count > 0) {
-    if (offset) offset_depth(kOffsetSlope, kOffsetSteps);
-    draw_range(frame, ranges[first + kGrazingSides], primitive);
-    if (offset) offset_depth(0, 0);
-  }
-  if (z_fail || caps) draw_range(frame, ranges[first + kLightCap]);
-  if (z_fail) draw_range(frame, ranges[first + kDarkCap]);
+  draw_range(frame, ranges[turned ? kSidesTurned : kSides], primitive);
+  const IndexRange& grazing = ranges[turned ? kGrazingSidesTurned : kGrazingSides];
+  if (grazing.count == 0) return;
+  if (offset) offset_depth(kOffsetSlope, kOffsetSteps);
+  draw_range(frame, grazing, primitive);
+  if (offset) offset_depth(0, 0);
+}
+
+void draw_caps(const Frame& frame, const std::array<IndexRange, kListKinds>& ranges, bool turned) {
+  draw_range(frame, ranges[turned ? kLightCapTurned : kLightCap]);
+  draw_range(frame, ranges[turned ? kDarkCapTurned : kDarkCap]);
+}
+
+// What a way of counting draws of a batch, in a pass that is applied: z-fail the whole surface of
+// the volumes, z-pass their sides, and light caps where they may be in front of the picture.
+void draw_faces(const Frame& frame, const Method& m, const Batch& b, const Pass& pass,
+                bool turned) {
+  draw_sides(frame, m, b.ranges, turned, b.of->offset);
+  if (b.z_fail) return draw_caps(frame, b.ranges, turned);
+  const IndexRange& caps = b.ranges[turned ? kLightCapTurned : kLightCap];
+  if (b.of->plan->caps_in_front == CapsInFront::all) return draw_range(frame, caps);
+  if (b.of->plan->caps_in_front == CapsInFront::none || caps.count == 0) return;
+  if (pass.cull == GL_BACK) return;
+  Pass back = pass;
+  back.cull = GL_FRONT;
+  if (pass.cull == GL_NONE) apply(back, frame);
+  draw_range(frame, caps);
+  if (pass.cull == GL_NONE) apply(pass, frame);
 }
 
 bool any(const std::array<IndexRange, kListKinds>& ranges, bool turned) {
@@ -140,7 +156,7 @@ void update_all_lists(const Frame& frame, const LightPlan& plan, Prepared& prepa
   for (std::size_t i = 0; i < prepared.all.size(); ++i) {
     InstanceVolumes& v = prepared.all[i];
     if (update_lists(*v.volumes, *v.mesh, plan.method, v.plan->near, v.plan->project,
-                     prepared.grouped ? kGroupLayers : 0, prepared.changed[i])) {
+                     v.plan->receivers, prepared.grouped ? kGroupLayers : 0, prepared.changed[i])) {
       ++frame.stats->rebuilt;
     }
   }
@@ -286,13 +302,14 @@ void count_phase(const Frame& frame, const LightPlan& plan, const Method& m,
   }
   for (const bool z_fail : {true, false}) {
     for (const bool turned : {false, true}) {
+      const Pass p = stencil_pass(m, grouped, z_fail, turned, phase);
       bool applied = false;
       for (const Batch& b : batches) {
         if (b.z_fail != z_fail || !any(b.ranges, turned)) continue;
-        if (!applied) apply(stencil_pass(m, grouped, z_fail, turned, phase), frame);
+        if (!applied) apply(p, frame);
         applied = true;
         use_volumes(frame, plan, *b.of);
-        draw_lists(frame, m, b.ranges, z_fail, b.of->plan->caps_in_front, turned, b.of->offset);
+        draw_faces(frame, m, b, p, turned);
       }
     }
   }
@@ -424,7 +441,7 @@ void count_by_blending(const Frame& frame, const LightPlan& plan, const Prepared
           const bool draw_enter = first != z_fail;
           p.cull = draw_enter != turned ? GL_BACK : GL_FRONT;
           apply(p, frame);
-          draw_lists(frame, m, b.ranges, z_fail, v.plan->caps_in_front, turned, v.offset);
+          draw_faces(frame, m, b, p, turned);
         }
       }
     }
@@ -658,8 +675,10 @@ void draw_volume_faces(const Frame& frame, const LightPlan& plan, const Pass& pa
         set(program, "u_inside", glm::mat4(*inside * b.of->instance->to_scene));
       }
       set(program, "u_colour", colour);
-      for (const bool turned : {false, true})
-        draw_lists(frame, plan.method, b.ranges, true, false, turned, false);
+      for (const bool turned : {false, true}) {
+        draw_sides(frame, plan.method, b.ranges, turned, false);
+        draw_caps(frame, b.ranges, turned);
+      }
     }
   }
 }

@@ -53,13 +53,23 @@ constexpr double kReachSlack = 1e-6;   // of a radius: far above rounding, far b
 constexpr double kLarge = 16777216.0;  // "Accelerated Stencil Shadow Extrusion": LARGE
 // How far beyond everything that is seen the bounding plane lies: this share of the scene's
 // diagonal, and so many steps of the depth buffer at the farthest of it.
-constexpr double kBoundMargin = 1.0 / 1024;
+constexpr double kBoundMargin = 0x1p-13;
+// The light's distance from the highest caster, of that from the plane, and the sine of a sun's
+// height over it, are more than this: floats hold the points on the plane to 2^-24 of their
+// distance from the caster over it, 2^-14.
+constexpr double kBoundClear = 0x1p-10;
 constexpr double kBoundSteps = 8;
 
 // A plane h with light, near rectangle, receivers and casters on its positive side (h . X > 0) and
 // every ray from the light through a caster crossing it: of the six sides of the receivers' box,
 // moved outwards, the one that the light meets most directly.
-std::optional<Vec4> bounding_plane(const Frame& frame, const Light& light) {
+struct Bound {
+  Vec4 plane;
+  // What is farther along the plane's normal than this, h . X, is nothing that receives; infinite
+  // where the near rectangle is not on the receivers' side.
+  double receivers = 0;
+};
+std::optional<Bound> bounding_plane(const Frame& frame, const Light& light) {
   constexpr double kInf = std::numeric_limits<double>::infinity();
   Vec3 lo(kInf), hi(-kInf), caster_lo(kInf), caster_hi(-kInf);
   for (const InstanceSlot& instance : frame.state->instances) {
@@ -96,7 +106,7 @@ std::optional<Vec4> bounding_plane(const Frame& frame, const Light& light) {
     step = std::max(step, 0x1p-23 / glm::length(slope));
   }
   const double margin = glm::distance(lo, hi) * kBoundMargin + kBoundSteps * step;
-  std::optional<Vec4> best;
+  std::optional<Bound> best;
   double most = 0;
   for (int axis = 0; axis < 3; ++axis) {
     for (const double sign : {1.0, -1.0}) {
@@ -110,24 +120,26 @@ std::optional<Vec4> bounding_plane(const Frame& frame, const Light& light) {
       // A point light keeps its distance from the highest caster, a sun an angle from the plane.
       const double clear =
           light.w != 0 ? (side - (top + h.w)) / side : side / glm::length(Vec3(light));
-      if (!(side > 0) || !(clear > kBoundMargin) || clear < most) continue;
-      bool near_inside = true;
-      for (const Vec3& p : camera.near_rectangle) near_inside &= glm::dot(h, point(p)) > 0;
-      if (!near_inside) continue;
+      if (!(side > 0) || !(clear > kBoundClear) || clear < most) continue;
+      double nearest = kInf;
+      for (const Vec3& p : camera.near_rectangle)
+        nearest = std::min(nearest, glm::dot(h, point(p)));
+      if (!(nearest > 0)) continue;
       most = clear;
-      best = h;
+      const double receivers = (sign > 0 ? lo[axis] : -hi[axis]) + h.w;
+      best = Bound{h, nearest > receivers ? receivers : -kInf};
     }
   }
   return best;
 }
 
-// Points behind vertices, in the mesh's coordinates; `plane` in the scene's.
-glm::mat4 projection(const Light& light, const Method& m, const std::optional<Vec4>& plane,
+// Points behind vertices, in the mesh's coordinates; `bound` in the scene's.
+glm::mat4 projection(const Light& light, const Method& m, const std::optional<Bound>& bound,
                      const glm::dmat4& to_scene) {
   glm::dmat4 out(0.0);
   if (m.reach == Reach::bounded) {
     // X' = (h.L) X - (h.X) L, divided by h.L.
-    const Vec4 h = *plane * to_scene;  // row times matrix
+    const Vec4 h = bound->plane * to_scene;  // row times matrix
     const double side = glm::dot(h, light);
     for (int column = 0; column < 4; ++column) {
       for (int row = 0; row < 4; ++row)
@@ -201,6 +213,7 @@ Result<LightPlan> plan_light(const Frame& frame, const Light& asked, double radi
   s.target_alpha = target.alpha;
   s.infinite_view = camera.infinite;
   s.lights = target.lights;
+  s.foreign_receivers = target.foreign;
 
   plan.instances.resize(state.instances.size());
   std::vector<std::vector<bool>> shades(state.instances.size());
@@ -220,7 +233,8 @@ Result<LightPlan> plan_light(const Frame& frame, const Light& asked, double radi
     const Box3 near_box = box_of(rectangle);
     out.near = near_clip_volume(rectangle, out.light);
     const Box3 light_box{Vec3(out.light), Vec3(out.light)};
-    out.caps_in_front = culls_back_faces(frame, instance, mesh);
+    if (target.foreign || culls_back_faces(frame, instance, mesh))
+      out.caps_in_front = CapsInFront::seen_from_behind;
     out.parts.resize(mesh.parts.parts.size());
     shades[i].resize(mesh.parts.parts.size());
     for (std::size_t p = 0; p < mesh.parts.parts.size(); ++p) {
@@ -229,7 +243,7 @@ Result<LightPlan> plan_light(const Frame& frame, const Light& asked, double radi
       shades[i][p] = may_shade_near(out.near, part.lo, part.hi) &&
                      may_any_shade_near(out.near, mesh.mesh, part.triangles);
       if (shades[i][p]) s.near_shaded = true;
-      if (mesh.part_seen[p] == 0) out.caps_in_front = true;
+      if (mesh.part_seen[p] == 0) out.caps_in_front = CapsInFront::all;
       // What a light of a radius cannot reach shades nothing that it reaches.
       const double scale = std::cbrt(std::fabs(glm::determinant(glm::dmat3(instance.to_scene))));
       pp.left_out =
@@ -248,8 +262,8 @@ Result<LightPlan> plan_light(const Frame& frame, const Light& asked, double radi
       if (!half || !part.convex) s.all_convex = false;
     }
   }
-  const std::optional<Vec4> plane = bounding_plane(frame, light);
-  s.can_bound = plane.has_value();
+  const std::optional<Bound> bound = bounding_plane(frame, light);
+  s.can_bound = bound.has_value();
   Result<Method> decided = decide(wanted, s, state.capabilities);
   if (!decided) return decided.error();
   plan.method = decided.value();
@@ -257,7 +271,12 @@ Result<LightPlan> plan_light(const Frame& frame, const Light& asked, double radi
   for (std::size_t i = 0; i < plan.instances.size(); ++i) {
     if (!state.instances[i].alive) continue;
     plan.instances[i].project =
-        projection(plan.instances[i].light, m, plane, state.instances[i].to_scene);
+        projection(plan.instances[i].light, m, bound, state.instances[i].to_scene);
+    if (m.reach == Reach::bounded && std::isfinite(bound->receivers)) {
+      Vec4 h = bound->plane;
+      h.w -= bound->receivers;
+      plan.instances[i].receivers = h * state.instances[i].to_scene;
+    }
     for (std::size_t p = 0; p < plan.instances[i].parts.size(); ++p) {
       PartPlan& pp = plan.instances[i].parts[p];
       pp.by_polygon = m.volumes == VolumesOf::polygon;

@@ -143,9 +143,11 @@ void bind(const Target& target) {
   glViewport(0, 0, target.format.width, target.format.height);
 }
 
-// Each light adds its part where it is not shadowed (Everitt and Kilgard, 3.3).
+// Each light adds its part where it is not shadowed (Everitt and Kilgard, 3.3). The first one in
+// the stencil draws over what is there, with that in its sum: nothing is blended, and rounded once.
 Result<bool> add_lights(const Frame& whole, const Target& picture,
-                        std::span<const LightSource> lights, std::span<const LightPlan> plans) {
+                        std::span<const LightSource> lights, std::span<const LightPlan> plans,
+                        const FrameOptions& options) {
   std::optional<Target> screen;
   for (std::size_t i = 0; i < lights.size(); ++i) {
     const Frame frame = within_reach(whole, lights[i]);
@@ -166,6 +168,11 @@ Result<bool> add_lights(const Frame& whole, const Target& picture,
     } else if (m.mask == MaskIn::stencil) {
       const Result<LitTest> lit = draw_light_mask(frame, plan, &picture);
       if (!lit) return lit.error();
+      if (i == 0) {
+        add.blend = false;
+        lighting.ambient = options.ambient;
+        lighting.emission = true;
+      }
       draw_where_lit(add, lit.value(), !m.keep_double_blending);
       draw_lit(frame, add, lighting);
     } else if (m.mask == MaskIn::alpha) {
@@ -396,25 +403,14 @@ Result<FrameStats> Renderer::draw(const Camera& camera, std::span<const LightSou
   const Shadows shadows = lights.empty()  ? Shadows::lights
                           : plans.empty() ? Shadows::none
                                           : plans.front().method.shadows;
-  if (shadows == Shadows::restored) {
-    Lighting all;
-    all.light = &lights.front();
-    all.ambient = options.ambient;
-    all.emission = true;
-    draw_lit(frame, first_pass(true), all);
-    const Frame reached = within_reach(frame, lights.front());
-    const Result<LitTest> lit = draw_light_mask(reached, plans.front(), &picture);
-    if (!lit) return lit.error();
-    Pass restore = colour_pass(GL_EQUAL);
-    draw_where_shadowed(restore, lit.value());
-    all.light = nullptr;
-    draw_lit(reached, restore, all);
-  } else if (shadows == Shadows::lights) {
+  if (shadows == Shadows::lights) {
     Lighting ambient;
     ambient.ambient = options.ambient;
     ambient.emission = true;
     draw_lit(frame, first_pass(true), ambient);
-    drawn = add_lights(frame, picture, lights, plans);
+    // Its threads draw while volumes are made; on a graphics card it would only break up the pass.
+    if (state_->capabilities.software) glFlush();
+    drawn = add_lights(frame, picture, lights, plans, options);
   } else if (shadows == Shadows::none) {
     draw_unshadowed(frame, lights, options);
   } else {
@@ -535,7 +531,7 @@ Result<FrameStats> Renderer::draw_mask(const Camera& camera, const Light& light,
                                         bound == 0 ? GL_BACK_LEFT : GL_COLOR_ATTACHMENT0,
                                         GL_FRAMEBUFFER_ATTACHMENT_ALPHA_SIZE, &alpha_bits);
   Result<LightPlan> plan =
-      plan_light(frame, light, 0, 0, method, {stencil_bits != GL_NONE, alpha_bits > 0, 1});
+      plan_light(frame, light, 0, 0, method, {stencil_bits != GL_NONE, alpha_bits > 0, 1, true});
   if (!plan) return plan.error();
   counted.method = plan.value().method;
   if (counted.method.float_bits > 0) {

@@ -128,8 +128,9 @@ class Renderer {
   // of the scene, drawn with clip_of() (see there) in the viewport, depth range and provoking
   // vertex that are set; nearer depths are less. Afterwards a sample is in shadow where, by
   // method.mask, in the stencil (stencil & lit_bits) > lit_at_most, see FrameStats; or where alpha
-  // is below one half. Colours (alpha: rgb) and depths are not touched. Errors: decide()'s reasons;
-  // a screen mask or one of lower resolution, or one in floats (see Method), which need a
+  // is below one half. Colours (alpha: rgb) and depths are not touched. Shadows fall on whatever is
+  // in the depths; if all of that was added here, Reach::bounded saves time. Errors: decide()'s
+  // reasons; a screen mask or one of lower resolution, or one in floats (see Method), which need a
   // framebuffer of ours; a clip space that is not OpenGL's usual one. Precondition: no query and no
   // transform feedback is active.
   Result<FrameStats> draw_mask(const Camera& camera, const Light& light, const Method& method);

@@ -66,17 +66,23 @@ inline void apply(Pass pass, const Frame& frame) {
   apply(pass, frame.state->support);
 }
 
+// Which light caps z-pass counts too. Caps lie on the casters' surfaces, at the same depth bit for
+// bit, so they are in front of nothing where casters are drawn, but for faces that are seen from
+// behind and were left out (culls_back_faces()), and for casters that are not drawn at all.
+enum class CapsInFront : std::uint8_t { none, seen_from_behind, all };
+
 // One light of a frame.
 struct LightPlan {
   Light light{0, 0, 1, 0};
   std::uint32_t number = 0;  // which of the frame's lights
   Method method;             // decided
   struct OfInstance {
-    Light light{0, 0, 1, 0};  // in the mesh's coordinates
-    NearClip near;            // likewise
-    glm::mat4 project{0.0f};  // likewise: a vertex to the point behind it
+    Light light{0, 0, 1, 0};     // in the mesh's coordinates
+    NearClip near;               // likewise
+    glm::mat4 project{0.0f};     // likewise: a vertex to the point behind it
+    Vec4 receivers{0, 0, 0, 1};  // likewise: see update_lists()
     std::vector<PartPlan> parts;
-    bool caps_in_front = false;  // z-pass must count caps too: some caster is not drawn
+    CapsInFront caps_in_front = CapsInFront::none;
   };
   std::vector<OfInstance> instances;  // by InstanceId; empty parts where not alive
 };
@@ -86,6 +92,7 @@ struct LightPlan {
 struct TargetFacts {
   bool stencil = true, alpha = true;
   int lights = 1;
+  bool foreign = false;  // its depths are another renderer's, maybe of more than was added here
 };
 // `radius`: the light ends there, metres; 0: it does not end.
 Result<LightPlan> plan_light(const Frame& frame, const Light& light, double radius,

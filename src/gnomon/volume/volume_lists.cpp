@@ -19,7 +19,7 @@ bool is_grazed(const GrazedEdges& grazed, std::uint32_t a, std::uint32_t b) {
 // halves meet in the diagonal from a to b at infinity; a strip along a loop splits its quads in the
 // same way.
 void push_side(VolumeLists& lists, std::uint32_t a, std::uint32_t b, bool turned, bool one_point,
-               const GrazedEdges& grazed) {
+               std::span<const std::uint8_t> beyond, const GrazedEdges& grazed) {
   const bool grazing = is_grazed(grazed, a, b);
   std::vector<std::uint32_t>& list =
       lists.lists[turned ? (grazing ? kGrazingSidesTurned : kSidesTurned)
@@ -27,8 +27,10 @@ void push_side(VolumeLists& lists, std::uint32_t a, std::uint32_t b, bool turned
   if (one_point) {
     list.insert(list.end(), {far_vertex(a), near_vertex(a), near_vertex(b)});
   } else {
-    list.insert(list.end(), {far_vertex(a), near_vertex(a), far_vertex(b),  //
-                             far_vertex(b), near_vertex(a), near_vertex(b)});
+    const bool no_a = !beyond.empty() && beyond[a] != 0;
+    const bool no_b = !beyond.empty() && beyond[b] != 0;
+    if (!no_a) list.insert(list.end(), {far_vertex(a), near_vertex(a), far_vertex(b)});
+    if (!no_a || !no_b) list.insert(list.end(), {far_vertex(b), near_vertex(a), near_vertex(b)});
   }
 }
 
@@ -117,14 +119,15 @@ void append_volume(VolumeLists& lists, const TriMesh& mesh,
                    std::span<const SilhouetteEdge> silhouette,
                    std::span<const std::uint32_t> triangles, std::span<const std::int8_t> sides,
                    bool one_point, Casting casting, SideForm form, std::uint32_t caster,
-                   LoopScratch& scratch, const GrazedEdges& grazed) {
+                   std::span<const std::uint8_t> beyond, LoopScratch& scratch,
+                   const GrazedEdges& grazed) {
   const Volume volume = begin_volume(lists, caster);
   if (form == SideForm::triangles) {
     // The weight of the side over (a, b, b at infinity, a at infinity) is minus the multiplicity,
     // and a polygon of weight -1 counts +1 where it is seen counterclockwise (shadow_volume.h).
     for (const SilhouetteEdge& e : silhouette) {
       for (int i = 0; i < std::abs(e.multiplicity); ++i)
-        push_side(lists, e.a, e.b, e.multiplicity < 0, one_point, grazed);
+        push_side(lists, e.a, e.b, e.multiplicity < 0, one_point, beyond, grazed);
     }
   } else {
     push_loops(lists, find_loops(silhouette, &scratch), form, grazed);
@@ -137,12 +140,12 @@ void append_volume(VolumeLists& lists, const TriMesh& mesh,
 
 void append_prism(VolumeLists& lists, const TriMesh& mesh, std::uint32_t triangle,
                   std::int8_t light_side, bool one_point, std::uint32_t caster,
-                  const GrazedEdges& grazed) {
+                  std::span<const std::uint8_t> beyond, const GrazedEdges& grazed) {
   Volume volume = begin_volume(lists, caster);
   const Triangle& t = mesh.triangles[triangle];
   for (int i = 0; i < 3; ++i) {
     const std::uint32_t a = t[i], b = t[(i + 1) % 3];
-    push_side(lists, std::min(a, b), std::max(a, b), (a < b) != (light_side > 0), one_point,
+    push_side(lists, std::min(a, b), std::max(a, b), (a < b) != (light_side > 0), one_point, beyond,
               grazed);
   }
   push_caps(lists, t, light_side, one_point);
