@@ -184,6 +184,40 @@ TEST(NearPlane, SidesBeforeItAreNotCountedWithDepthClamp) {
   }
 }
 
+// A low sun over rolling ground, whose sides make small angles with what they fall on: where it
+// grazes one small triangle, the shadows elsewhere must stay where they are.
+TEST(Grazing, MovesNoSidesButThoseOfWhatIsGrazed) {
+  TriMesh m;
+  constexpr int kCells = 32;
+  const auto height = [](int i, int j) { return 0.4 * std::sin(i * 1.1) * std::cos(j * 0.9); };
+  for (int j = 0; j <= kCells; ++j)
+    for (int i = 0; i <= kCells; ++i) m.positions.push_back(Vec3(i - 16, j - 16, height(i, j)));
+  for (std::uint32_t j = 0; j < kCells; ++j) {
+    for (std::uint32_t i = 0; i < kCells; ++i) {
+      const std::uint32_t a = j * (kCells + 1) + i, c = a + kCells + 1;
+      m.triangles.insert(m.triangles.end(), {{a, a + 1, c}, {c, a + 1, c + 1}});
+    }
+  }
+  const Light sun(1, 0.5, 0.0625, 0);
+  const auto first = static_cast<std::uint32_t>(m.positions.size());
+  const Vec3 corner(-14, 14, 1);
+  m.positions.insert(m.positions.end(),
+                     {corner, corner + 0.5 * Vec3(sun), corner + Vec3(0, 0, 0.5)});
+  m.triangles.push_back({first, first + 1, first + 2});
+  const Scene scene = test::scene_of(std::move(m));
+  const View view = aerial(160, 120);
+  Stage stage = stage_of(scene);
+  const Camera camera = camera_of(view, depth_range(scene, view, true));
+  for (const Primitives primitives : {Primitives::quads, Primitives::fans}) {
+    Method method;
+    method.primitives = primitives;
+    EXPECT_LE(
+        compare(stage.renderer.mask(camera, sun, method).value(), exact_mask(scene, sun, view))
+            .pixels,
+        3);
+  }
+}
+
 // A folded strip above the eye: one lit region, of more layers than eight bits count.
 TEST(Mixed, CountsARegionOfMoreLayersThanTheStencilHolds) {
   TriMesh m;

@@ -56,7 +56,7 @@ struct Builder {
     find_part_silhouette(silhouette, m.edges, edges, group_of, group, v.light_side,
                          v.plan[p].casting);
     append_volume(v.lists, m.mesh, silhouette, triangles, v.light_side, one_point,
-                  v.plan[p].casting, form, p, beyond(v.plan[p].z_fail), scratch);
+                  v.plan[p].casting, form, p, beyond(v.plan[p].z_fail), scratch, v.grazed_edges);
     note(false, layers);
   }
 
@@ -67,7 +67,8 @@ struct Builder {
     if (plan.by_polygon) {
       for (const std::uint32_t t : part.triangles) {
         if (!casts(plan.casting, v.light_side[t])) continue;
-        append_prism(v.lists, m.mesh, t, v.light_side[t], one_point, p, beyond(plan.z_fail));
+        append_prism(v.lists, m.mesh, t, v.light_side[t], one_point, p, beyond(plan.z_fail),
+                     v.grazed_edges);
         note(true, 1);
       }
       return;
@@ -111,7 +112,7 @@ struct Builder {
       }
       append_volume(v.lists, m.mesh, v.regions.silhouette_of(r), triangles, v.light_side, one_point,
                     Casting::all_triangles, form, m.parts.part_of[triangles[0]], beyond(z_fail),
-                    scratch);
+                    scratch, v.grazed_edges);
       note(false, static_cast<std::uint32_t>(triangles.size()));
     }
   }
@@ -151,8 +152,17 @@ bool update_sides(CasterVolumes& v, const GpuMesh& m, std::uint64_t mesh_version
   if (!same_light) {
     v.light_side = light_sides(m.mesh, light);
     v.grazed = false;
-    for (std::uint32_t t = 0; t < m.mesh.triangles.size() && !v.grazed; ++t)
-      v.grazed = m.receives[t] != 0 && grazes(m.mesh, t, light);
+    v.grazed_edges.clear();
+    for (std::uint32_t t = 0; t < m.mesh.triangles.size(); ++t) {
+      if (!grazes(m.mesh, t, light)) continue;
+      v.grazed |= m.receives[t] != 0;
+      const Triangle& corners = m.mesh.triangles[t];
+      for (int k = 0; k < 3; ++k) {
+        const std::uint32_t a = corners[k], b = corners[(k + 1) % 3];
+        v.grazed_edges.push_back({std::min(a, b), std::max(a, b)});
+      }
+    }
+    std::sort(v.grazed_edges.begin(), v.grazed_edges.end());
   }
   v.light = light;
   v.mesh_version = mesh_version;

@@ -53,6 +53,7 @@ struct CasterVolumes {
 
   std::vector<std::int8_t> light_side;  // per triangle
   bool grazed = false;                // the plane of some receiving triangle nearly holds the light
+  GrazedEdges grazed_edges;           // of all triangles that the light grazes
   std::vector<std::uint8_t> casting;  // per triangle: it counts
   LitRegions regions;                 // of parts by region
   int layers = 0;                     // no ray from the light crosses more casting triangles

@@ -63,18 +63,21 @@ void draw_range(const Frame& frame, const IndexRange& range, GLenum primitive = 
 
 // Sides that start at an edge of a triangle whose plane holds the light lie in that plane. Exactly,
 // they are just behind whatever lies there and is seen from its lit side, and just before what is
-// seen from its unlit one, which count_unlit_receivers() shades; so where there are such triangles,
-// all sides are drawn a little farther away than they are: by the rounding of depths, and that of
-// corners to a 256th of a pixel, eight times over.
+// seen from its unlit one, which count_unlit_receivers() shades; so where such triangles receive,
+// these sides (no others: their shadows' edges would move) are drawn a little farther away than
+// they are: by the rounding of depths, and that of corners to a 256th of a pixel.
 constexpr float kOffsetSlope = 1.0f / 256, kOffsetSteps = 2;
 
 void draw_sides(const Frame& frame, const Method& m,
                 const std::array<IndexRange, kListKinds>& ranges, bool turned, bool offset) {
+  const GLenum primitive = m.primitives == Primitives::strips ? GL_TRIANGLE_STRIP
+                           : m.primitives == Primitives::fans ? GL_TRIANGLE_FAN
+                                                              : GL_TRIANGLES;
+  draw_range(frame, ranges[turned ? kSidesTurned : kSides], primitive);
+  const IndexRange& grazing = ranges[turned ? kGrazingSidesTurned : kGrazingSides];
+  if (grazing.count == 0) return;
   if (offset) offset_depth(kOffsetSlope, kOffsetSteps);
-  draw_range(frame, ranges[turned ? kSidesTurned : kSides],
-             m.primitives == Primitives::strips ? GL_TRIANGLE_STRIP
-             : m.primitives == Primitives::fans ? GL_TRIANGLE_FAN
-                                                : GL_TRIANGLES);
+  draw_range(frame, grazing, primitive);
   if (offset) offset_depth(0, 0);
 }
 
@@ -102,7 +105,9 @@ void draw_faces(const Frame& frame, const Method& m, const Batch& b, const Pass&
 
 bool any(const std::array<IndexRange, kListKinds>& ranges, bool turned) {
   const int first = turned ? kSidesTurned : kSides;
-  return ranges[first].count + ranges[first + kLightCap].count + ranges[first + kDarkCap].count > 0;
+  return ranges[first].count + ranges[first + kGrazingSides].count +
+             ranges[first + kLightCap].count + ranges[first + kDarkCap].count >
+         0;
 }
 
 // The cut of every volume with the near plane, in clip space, z-pass's start ("Shadow Volumes
