@@ -186,6 +186,27 @@ TEST(Grazing, MovesNoSidesButThoseOfWhatIsGrazed) {
   }
 }
 
+// A wall that leans back a little under an eave, which shades it: the side over the edge between
+// them runs just behind the wall.
+TEST(Grazing, WallThatLeansBackUnderAnEaveIsInItsShadow) {
+  for (const int bits : {11, 12, 13, 14, 15}) {
+    const double lean = std::exp2(-bits - 0.5);  // sine of the angle to the light
+    TriMesh m;
+    test::add_ground(m, 30);
+    test::add_quad(m, {0, -5, 0}, {0, 5, 0}, {-8 * lean, 5, 8}, {-8 * lean, -5, 8});
+    test::add_quad(m, {-8 * lean, -5, 8}, {-8 * lean, 5, 8}, {2, 5, 9}, {2, -5, 9});
+    const Scene scene = test::scene_of(std::move(m));
+    const View view = perspective_view({20, -9, 5}, {0, 0, 4}, {0, 0, 1}, 0.8, 160, 120);
+    Stage stage = stage_of(scene);
+    const Camera camera = camera_of(view, {0.25, 200});
+    const Light sun(0, 0, 1, 0);
+    EXPECT_LE(
+        compare(stage.renderer.mask(camera, sun, {}).value(), exact_mask(scene, sun, view)).pixels,
+        8)
+        << bits;
+  }
+}
+
 // A folded strip above the eye: one lit region, of more layers than eight bits count.
 TEST(Mixed, CountsARegionOfMoreLayersThanTheStencilHolds) {
   TriMesh m;
