@@ -127,6 +127,38 @@ TEST(Reach, SidesBeyondTheReceiversAreLeftOutWhereZPassCounts) {
   EXPECT_EQ(triangles(Count::z_fail, Reach::bounded), box + ground + 2 * caps);
 }
 
+// A lamp lower than the roofs: no plane ends the volumes, which would cover half of the picture.
+TEST(Scissor, CutsVolumesToWhatTheyShadeAndLeavesOutThoseThatShadeNothingSeen) {
+  TriMesh mesh;
+  test::add_ground(mesh, 40);
+  test::add_box(mesh, {-30, 20, 0}, {-29, 21, 9});
+  for (int k = 0; k < 10; ++k) {
+    const double x = 3.0 * k - 15;
+    test::add_box(mesh, {x, 5, 0}, {x + 1, 6, 1 + k % 3});
+    test::add_box(mesh, {x, -8, 0}, {x + 1, -7, 2});
+  }
+  const Scene scene = test::scene_of(std::move(mesh));
+  const Light lamp(0.3, 0.2, 5, 1);
+  const View view = perspective_view({-4, -16, 9}, {-4, -4, 0}, {0, 0, 1}, 0.7, 160, 120);
+  Stage stage = stage_of(scene);
+  const Camera camera = camera_of(view, depth_range(scene, view, true));
+  const ShadowMask exact = exact_mask(scene, lamp, view);
+  ASSERT_GT(std::count(exact.state.begin(), exact.state.end(), ShadowMask::kShadow), 100);
+  for (const MaskIn mask : {MaskIn::stencil, MaskIn::alpha, MaskIn::screen}) {
+    for (const Count count : {Count::automatic, Count::z_fail, Count::mixed}) {
+      Method m;
+      m.mask = mask;
+      m.count = count;
+      m.reach = Reach::infinite;
+      FrameStats stats;
+      const ShadowMask drawn = stage.renderer.mask(camera, lamp, m, &stats).value();
+      EXPECT_LE(compare(drawn, exact).pixels, 4) << describe(m);
+      EXPECT_GT(stats.scissored_volumes, 3) << describe(m);
+      EXPECT_GE(stats.culled_volumes, 3) << describe(m);
+    }
+  }
+}
+
 // A plate shades the eye but not the near rectangle: its side passes between them.
 TEST(NearPlane, SidesBeforeItAreNotCountedWithDepthClamp) {
   TriMesh m;

@@ -41,37 +41,6 @@ void clear(const Frame& frame, const Target& target, const Vec3& background) {
           (target.format.stencil ? GL_STENCIL_BUFFER_BIT : 0));
 }
 
-// The pixels that receivers may cover, a pixel more on each side; nothing where the eye's plane
-// meets their box.
-std::optional<Rect> visible_rectangle(const Frame& frame) {
-  glm::dvec2 lo(1.0), hi(-1.0);
-  for (const InstanceSlot& instance : frame.state->instances) {
-    if (!instance.alive) continue;
-    const GpuMesh& mesh = frame.state->meshes[instance.mesh].gpu;
-    if (!(mesh.lo.x <= mesh.hi.x)) continue;
-    const glm::dmat4 clip = frame.camera->clip * instance.to_scene;
-    for (int i = 0; i < 8; ++i) {
-      const Vec4 p = clip * point(Vec3((i & 1) != 0 ? mesh.hi.x : mesh.lo.x,
-                                       (i & 2) != 0 ? mesh.hi.y : mesh.lo.y,
-                                       (i & 4) != 0 ? mesh.hi.z : mesh.lo.z));
-      if (!(p.w > 0)) return {};
-      const glm::dvec2 at = glm::dvec2(p) / p.w;
-      lo = glm::min(lo, at);
-      hi = glm::max(hi, at);
-    }
-  }
-  lo = glm::clamp(lo, -1.0, 1.0);
-  hi = glm::clamp(hi, -1.0, 1.0);
-  const int width = frame.camera->width, height = frame.camera->height;
-  Rect r;
-  r.x = std::max(0, static_cast<int>(std::floor((lo.x + 1) / 2 * width)) - 1);
-  r.y = std::max(0, static_cast<int>(std::floor((lo.y + 1) / 2 * height)) - 1);
-  r.width = std::min(width, static_cast<int>(std::ceil((hi.x + 1) / 2 * width)) + 1) - r.x;
-  r.height = std::min(height, static_cast<int>(std::ceil((hi.y + 1) / 2 * height)) + 1) - r.y;
-  if (r.width <= 0 || r.height <= 0) return Rect{0, 0, 0, 0};
-  return r;
-}
-
 // A colour wherever nothing was drawn: a rectangle in the far plane.
 void draw_background(const Frame& frame, const Vec3& colour) {
   Pass p = colour_pass(GL_EQUAL);
@@ -117,14 +86,7 @@ glm::vec4 channel_of(const Method& m) {
 // A mask at a lower resolution, in a texture (Roettger et al., 4.5).
 Result<Target> low_mask(const Frame& full, const LightPlan& plan) {
   Frame frame = full;
-  if (full.scissor) {
-    const double k = plan.method.mask_scale;
-    const Rect& r = *full.scissor;
-    Rect low{static_cast<int>(std::floor(r.x * k)), static_cast<int>(std::floor(r.y * k)), 0, 0};
-    low.width = static_cast<int>(std::ceil((r.x + r.width) * k)) - low.x;
-    low.height = static_cast<int>(std::ceil((r.y + r.height) * k)) - low.y;
-    frame.scissor = low;
-  }
+  if (full.scissor) frame.scissor = scaled(*full.scissor, plan.method.mask_scale);
   Result<Target> made = make_target(format_of(*frame.camera, plan.method, plan.method.mask_scale));
   if (!made) return made.error();
   Target target = std::move(made).value();
@@ -398,7 +360,8 @@ Result<FrameStats> Renderer::draw(const Camera& camera, std::span<const LightSou
   }
   const Target& picture = *state_->picture;
   clear(frame, picture, options.background);
-  frame.scissor = visible_rectangle(frame);
+  const SceneBox seen = receivers_of(frame);
+  if (seen.lo.x <= seen.hi.x) frame.scissor = rectangle_round(camera, corners_of(seen));
   Result<bool> drawn = true;
   const Shadows shadows = lights.empty()  ? Shadows::lights
                           : plans.empty() ? Shadows::none

@@ -14,6 +14,7 @@
 #include <gnomon/gl/pass.h>
 #include <gnomon/gl/program.h>
 #include <gnomon/gl/renderer.h>
+#include <gnomon/gl/screen_rectangle.h>
 #include <gnomon/gl/target.h>
 
 namespace gnomon::gl {
@@ -85,6 +86,7 @@ struct LightPlan {
     CapsInFront caps_in_front = CapsInFront::none;
   };
   std::vector<OfInstance> instances;  // by InstanceId; empty parts where not alive
+  std::optional<SceneBox> receivers;  // nothing else is seen, if known
 };
 
 // What decides the method, and the plan of every part. Error: decide()'s. `target_*`: of the
@@ -97,6 +99,9 @@ struct TargetFacts {
 // `radius`: the light ends there, metres; 0: it does not end.
 Result<LightPlan> plan_light(const Frame& frame, const Light& light, double radius,
                              std::uint32_t number, const Method& wanted, const TargetFacts& target);
+
+// The box round all that is seen.
+SceneBox receivers_of(const Frame& frame);
 
 // The frame within the reach of a light: scissor and depth bounds.
 Frame within_reach(const Frame& frame, const LightSource& light);
