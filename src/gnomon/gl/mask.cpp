@@ -603,8 +603,9 @@ void normalise(const Frame& frame, const Method& m) {
 // --- receivers whose volumes do not shade them ------------------------------------------------
 
 // The unlit side of a receiver that does not cast is in shadow though nothing of its own counts
-// (docs/exactness.md). Where sides are moved away, those that belong before an unlit side may have
-// come behind it. Such receivers, drawn again where they are seen, add one.
+// (docs/exactness.md). Of one that casts and lies nearly in a plane with the light, the side that
+// belongs before the unlit side may have come behind it: by rounding, or because it is moved away.
+// Such receivers, drawn again where they are seen, add one.
 void count_unlit_receivers(const Frame& frame, const LightPlan& plan, const Prepared& prepared) {
   const Method& m = plan.method;
   for (std::size_t i = 0; i < plan.instances.size(); ++i) {
@@ -624,11 +625,9 @@ void count_unlit_receivers(const Frame& frame, const LightPlan& plan, const Prep
       add(t, light_side(mesh.mesh.positions[v[0]], mesh.mesh.positions[v[1]],
                         mesh.mesh.positions[v[2]], plan.instances[i].light, exact));
     }
-    if (prepared.offset && !plan.instances[i].parts.empty()) {
+    if (!plan.instances[i].parts.empty()) {
       const CasterVolumes& v = instance.volumes[plan.number];
-      for (std::uint32_t t = 0; t < mesh.mesh.triangles.size(); ++t) {
-        if (mesh.casts[t] != 0 && mesh.receives[t] != 0) add(t, v.light_side[t]);
-      }
+      for (const std::uint32_t t : v.nearly_grazed) add(t, v.light_side[t]);
     }
     for (const bool positive : {false, true}) {
       const std::vector<std::uint32_t>& drawn = indices[positive ? 1 : 0];
