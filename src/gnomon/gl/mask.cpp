@@ -307,11 +307,10 @@ void count_phase(const Frame& frame, const LightPlan& plan, const Method& m,
   }
 }
 
-void count_group(const Frame& frame, const LightPlan& plan, const std::vector<Batch>& batches,
-                 bool grouped) {
-  const int phases = plan.method.passes == StencilPasses::culled ? 2 : 1;
-  for (int phase = 0; phase < phases; ++phase)
-    count_phase(frame, plan, plan.method, batches, grouped, phase);
+void count_group(const Frame& frame, const LightPlan& plan, const Method& m,
+                 const std::vector<Batch>& batches, bool grouped) {
+  const int phases = m.passes == StencilPasses::culled ? 2 : 1;
+  for (int phase = 0; phase < phases; ++phase) count_phase(frame, plan, m, batches, grouped, phase);
 }
 
 void clear_stencil(const Frame& frame, int value) {
@@ -352,19 +351,27 @@ bool count_saturating(const Frame& frame, const LightPlan& plan,
 LitTest count_in_stencil(const Frame& frame, const LightPlan& plan, Prepared& prepared) {
   auto groups = batches_of(prepared);
   frame.stats->stencil_groups = 1;
-  if (plan.method.ops == StencilOps::wrap && prepared.layers <= kWrapLayers) {
+  const bool wraps = prepared.layers <= kWrapLayers;
+  if ((plan.method.ops == StencilOps::saturate || !wraps) &&
+      count_saturating(frame, plan, groups.front())) {
+    return {GL_GEQUAL, 0, 0xff, GL_INCR, 0xff};
+  }
+  // Faces that count up may be too many though layers are few. Groups would be worse: neighbours in
+  // two of them do not cancel where they are rounded.
+  if (wraps) {
     clear_stencil(frame, kWrapMiddle);
-    count_group(frame, plan, groups.front(), false);
+    Method m = plan.method;
+    m.ops = StencilOps::wrap;
+    count_group(frame, plan, m, groups.front(), false);
     return {GL_GEQUAL, kWrapMiddle, 0xff, GL_INCR, 0xff};
   }
-  if (count_saturating(frame, plan, groups.front())) return {GL_GEQUAL, 0, 0xff, GL_INCR, 0xff};
   prepared.grouped = true;
   update_all_lists(frame, plan, prepared);
   groups = batches_of(prepared);
   frame.stats->stencil_groups = static_cast<int>(groups.size());
   clear_stencil(frame, kGroupMiddle);
   for (const std::vector<Batch>& batches : groups) {
-    count_group(frame, plan, batches, true);
+    count_group(frame, plan, plan.method, batches, true);
     Pass keep;  // where the group's count is above the middle, the shaded bit is set
     keep.depth_test = false;
     keep.stencil_test = true;
