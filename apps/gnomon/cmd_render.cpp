@@ -134,10 +134,12 @@ void run(const Options& o) {
              scene.mesh.triangles.size(), lights.first.words);
   fmt::print("{}\n", gl::describe(stats.method));
   fmt::print(
-      "{} volumes z-pass, {} z-fail, {} of them of single polygons; {} passes of the scene, {} "
+      "{} volumes z-pass, {} z-fail, {} of them of single polygons, {} cut to where they matter, "
+      "{} "
+      "left out; {} passes of the scene, {} "
       "rectangles; first frame {:.0f} ms\n",
-      stats.z_pass_volumes, stats.z_fail_volumes, stats.polygon_volumes, stats.passes,
-      stats.rectangles, ms);
+      stats.z_pass_volumes, stats.z_fail_volumes, stats.polygon_volumes, stats.scissored_volumes,
+      stats.culled_volumes, stats.passes, stats.rectangles, ms);
   fmt::print("  {}\n", o.output);
 }
 

@@ -115,8 +115,8 @@ void add_method_options(CLI::App& command, gl::Method& m) {
   add_choice(command, "--primitives", m.primitives,
              {Primitives::quads, Primitives::strips, Primitives::fans}, "How sides are sent");
   add_choice(command, "--shadows", m.shadows,
-             {Shadows::automatic, Shadows::lights, Shadows::restored, Shadows::black,
-              Shadows::ambient, Shadows::attenuated, Shadows::none},
+             {Shadows::automatic, Shadows::lights, Shadows::black, Shadows::ambient,
+              Shadows::attenuated, Shadows::none},
              "What a shadow is: light by light, or the first paper's for one light");
   command.add_option("--mask-scale", m.mask_scale, "Size of the mask, as a share of the picture's")
       ->check(CLI::Range(0.01, 1.0))

@@ -68,20 +68,6 @@ TEST(Lights, EachAddsItsPartByEveryMask) {
   }
 }
 
-TEST(Lights, OneLightIsTheSameAddedOrTakenBack) {
-  const Scene scene = test::scene_of(boxes_on_ground());
-  Stage stage = stage_of(scene);
-  const View view = aerial();
-  const Camera camera = camera_of(view, depth_range(scene, view, true));
-  Method added, restored;
-  added.shadows = Shadows::lights;
-  restored.shadows = Shadows::restored;
-  const std::vector<LightSource> one{three_lamps()[0]};
-  EXPECT_LE(largest_difference(picture(stage.renderer, camera, one, added),
-                               picture(stage.renderer, camera, one, restored)),
-            1);
-}
-
 TEST(Lights, RadiusEndsALightAndLeavesOutCastersBeyond) {
   const Scene scene = test::scene_of(boxes_on_ground());
   const View view = aerial();
@@ -91,7 +77,7 @@ TEST(Lights, RadiusEndsALightAndLeavesOutCastersBeyond) {
     LightSource lamp = three_lamps()[0];
     lamp.light = {5, -4, 5, 1};
     lamp.radius = 9;
-    for (const Shadows shadows : {Shadows::lights, Shadows::restored}) {
+    for (const Shadows shadows : {Shadows::lights, Shadows::ambient}) {
       Method m;
       m.shadows = shadows;
       const Image small = picture(stage.renderer, camera, {lamp}, m);
@@ -113,6 +99,43 @@ TEST(Lights, RadiusEndsALightAndLeavesOutCastersBeyond) {
                 far.z_pass_volumes + far.z_fail_volumes);
     }
   }
+}
+
+// Everitt and Kilgard 2002, 3.3: a face that is stored twice must not get a light twice. The first
+// light is drawn over what is there, so the second one shows it.
+TEST(Lights, AreAddedOnceToFacesOfOneDepthByIncrementing) {
+  TriMesh mesh;
+  test::add_ground(mesh, 20);
+  const Scene once = test::scene_of(mesh);
+  test::add_ground(mesh, 20);
+  const Scene twice = test::scene_of(mesh);
+  const View view = aerial();
+  const Camera camera = camera_of(view, depth_range(once, view, true));
+  const std::vector<LightSource> lights{three_lamps()[0], three_lamps()[1]};
+  Stage single = stage_of(once);
+  const Image right = picture(single.renderer, camera, lights, {});
+  Stage doubled = stage_of(twice);
+  EXPECT_EQ(largest_difference(picture(doubled.renderer, camera, lights, {}), right), 0);
+  Method keep;
+  keep.keep_double_blending = true;
+  EXPECT_GT(largest_difference(picture(doubled.renderer, camera, lights, keep), right), 20);
+}
+
+TEST(Lights, ShineTheSameOnAScaledInstance) {
+  const Scene large = test::scene_of(boxes_on_ground());
+  Scene small = large;
+  for (Vec3& p : small.mesh.positions) p /= 4;
+  const View view = aerial();
+  const Camera camera = camera_of(view, depth_range(large, view, true));
+  const std::vector<LightSource> lights{three_lamps()[0]};
+  const Image right = [&] {
+    Stage stage = stage_of(large);
+    return picture(stage.renderer, camera, lights, {});
+  }();
+  const HeadlessContext context = HeadlessContext::create(Api::opengl).value();
+  Renderer scaled = Renderer::create(find_capabilities().value()).value();
+  scaled.add_instance(scaled.add_mesh(small.mesh), glm::dmat4(glm::dmat3(4.0)));
+  EXPECT_LE(largest_difference(picture(scaled, camera, lights, {}), right), 1);
 }
 
 }  // namespace

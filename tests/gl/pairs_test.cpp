@@ -100,6 +100,65 @@ TEST(Reach, BoundedByAnUprightPlaneIsExact) {
   }
 }
 
+// One box on the ground, seen from above: of the six sides below its outline two lie under the
+// ground, and so does half of the two under its upright edges.
+TEST(Reach, SidesBeyondTheReceiversAreLeftOutWhereZPassCounts) {
+  TriMesh mesh;
+  test::add_ground(mesh, 40);
+  test::add_box(mesh, {-1, -1, 0}, {1, 1, 3});
+  const Scene scene = test::scene_of(std::move(mesh));
+  Stage stage = stage_of(scene);
+  const View view = aerial();
+  const Camera camera = camera_of(view, depth_range(scene, view, true));
+  const Light lamp(-9, 8, 12, 1);
+  const auto triangles = [&](Count count, Reach reach) {
+    Method m;
+    m.count = count;
+    m.reach = reach;
+    FrameStats stats;
+    const ShadowMask mask = stage.renderer.mask(camera, lamp, m, &stats).value();
+    EXPECT_LE(compare(mask, exact_mask(scene, lamp, view)).pixels, 4) << describe(m);
+    return stats.volume_triangles;
+  };
+  // Triangles: under the box's outline and the ground's; of the lit faces of both.
+  constexpr long long box = 12, ground = 8, caps = 6 + 2;
+  EXPECT_EQ(triangles(Count::z_pass, Reach::infinite), box + ground + caps);
+  EXPECT_EQ(triangles(Count::z_pass, Reach::bounded), box / 2 + caps);
+  EXPECT_EQ(triangles(Count::z_fail, Reach::bounded), box + ground + 2 * caps);
+}
+
+// A lamp lower than the roofs: no plane ends the volumes, which would cover half of the picture.
+TEST(Scissor, CutsVolumesToWhatTheyShadeAndLeavesOutThoseThatShadeNothingSeen) {
+  TriMesh mesh;
+  test::add_ground(mesh, 40);
+  test::add_box(mesh, {-30, 20, 0}, {-29, 21, 9});
+  for (int k = 0; k < 10; ++k) {
+    const double x = 3.0 * k - 15;
+    test::add_box(mesh, {x, 5, 0}, {x + 1, 6, 1 + k % 3});
+    test::add_box(mesh, {x, -8, 0}, {x + 1, -7, 2});
+  }
+  const Scene scene = test::scene_of(std::move(mesh));
+  const Light lamp(0.3, 0.2, 5, 1);
+  const View view = perspective_view({-4, -16, 9}, {-4, -4, 0}, {0, 0, 1}, 0.7, 160, 120);
+  Stage stage = stage_of(scene);
+  const Camera camera = camera_of(view, depth_range(scene, view, true));
+  const ShadowMask exact = exact_mask(scene, lamp, view);
+  ASSERT_GT(std::count(exact.state.begin(), exact.state.end(), ShadowMask::kShadow), 100);
+  for (const MaskIn mask : {MaskIn::stencil, MaskIn::alpha, MaskIn::screen}) {
+    for (const Count count : {Count::automatic, Count::z_fail, Count::mixed}) {
+      Method m;
+      m.mask = mask;
+      m.count = count;
+      m.reach = Reach::infinite;
+      FrameStats stats;
+      const ShadowMask drawn = stage.renderer.mask(camera, lamp, m, &stats).value();
+      EXPECT_LE(compare(drawn, exact).pixels, 4) << describe(m);
+      EXPECT_GT(stats.scissored_volumes, 3) << describe(m);
+      EXPECT_GE(stats.culled_volumes, 3) << describe(m);
+    }
+  }
+}
+
 // A plate shades the eye but not the near rectangle: its side passes between them.
 TEST(NearPlane, SidesBeforeItAreNotCountedWithDepthClamp) {
   TriMesh m;
@@ -120,6 +179,73 @@ TEST(NearPlane, SidesBeforeItAreNotCountedWithDepthClamp) {
       method.count = count;
       method.far_plane = FarPlane::clamp;
       EXPECT_LE(compare(stage.renderer.mask(camera, sun, method).value(), exact).pixels, 10)
+          << describe(method);
+    }
+  }
+}
+
+// A low sun over rolling ground, whose sides make small angles with what they fall on: where it
+// grazes one small triangle, the shadows elsewhere must stay where they are.
+TEST(Grazing, MovesNoSidesButThoseOfWhatIsGrazed) {
+  TriMesh m;
+  constexpr int kCells = 32;
+  const auto height = [](int i, int j) { return 0.4 * std::sin(i * 1.1) * std::cos(j * 0.9); };
+  for (int j = 0; j <= kCells; ++j)
+    for (int i = 0; i <= kCells; ++i) m.positions.push_back(Vec3(i - 16, j - 16, height(i, j)));
+  for (std::uint32_t j = 0; j < kCells; ++j) {
+    for (std::uint32_t i = 0; i < kCells; ++i) {
+      const std::uint32_t a = j * (kCells + 1) + i, c = a + kCells + 1;
+      m.triangles.insert(m.triangles.end(), {{a, a + 1, c}, {c, a + 1, c + 1}});
+    }
+  }
+  const Light sun(1, 0.5, 0.0625, 0);
+  const auto first = static_cast<std::uint32_t>(m.positions.size());
+  const Vec3 corner(-14, 14, 1);
+  m.positions.insert(m.positions.end(),
+                     {corner, corner + 0.5 * Vec3(sun), corner + Vec3(0, 0, 0.5)});
+  m.triangles.push_back({first, first + 1, first + 2});
+  const Scene scene = test::scene_of(std::move(m));
+  const View view = aerial(160, 120);
+  Stage stage = stage_of(scene);
+  const Camera camera = camera_of(view, depth_range(scene, view, true));
+  for (const Primitives primitives : {Primitives::quads, Primitives::fans}) {
+    Method method;
+    method.primitives = primitives;
+    EXPECT_LE(
+        compare(stage.renderer.mask(camera, sun, method).value(), exact_mask(scene, sun, view))
+            .pixels,
+        3);
+  }
+}
+
+// A folded strip above the eye: one lit region, of more layers than eight bits count.
+TEST(Mixed, CountsARegionOfMoreLayersThanTheStencilHolds) {
+  TriMesh m;
+  test::add_ground(m, 40);
+  constexpr int kFolds = 340;  // modulo 128 more than half of it: a group that holds all is lit
+  const auto first = static_cast<std::uint32_t>(m.positions.size());
+  for (int k = 0; k <= kFolds; ++k) {
+    const double x = k % 2 == 0 ? -3 : 3;
+    m.positions.insert(m.positions.end(), {Vec3(x, -3, 8 + 0.01 * k), Vec3(x, 3, 8 + 0.01 * k)});
+  }
+  for (std::uint32_t k = 0; k < kFolds; ++k) {
+    const std::uint32_t a = first + 2 * k;
+    m.triangles.insert(m.triangles.end(), {{a, a + 1, a + 2}, {a + 2, a + 1, a + 3}});
+  }
+  const Scene scene = test::scene_of(std::move(m));
+  const View view = perspective_view({-2, 0, 4}, {10, 0, 0}, {0, 0, 1}, 1.2, 64, 48);
+  const Camera camera = camera_of(view, depth_range(scene, view, true));
+  const Light sun(0.03, 0.02, 1, 0);
+  const ShadowMask exact = exact_mask(scene, sun, view);
+  ASSERT_GT(std::count(exact.state.begin(), exact.state.end(), ShadowMask::kShadow), 100);
+  Stage stage = stage_of(scene);
+  for (const Count count : {Count::mixed, Count::automatic}) {
+    for (const StencilPasses passes : {StencilPasses::two_sided, StencilPasses::culled}) {
+      Method method;
+      method.count = count;
+      method.passes = passes;
+      method.ops = passes == StencilPasses::culled ? StencilOps::saturate : StencilOps::wrap;
+      EXPECT_LE(compare(stage.renderer.mask(camera, sun, method).value(), exact).pixels, 5)
           << describe(method);
     }
   }

@@ -387,6 +387,26 @@ TEST(DrawMask, RefusesAnAlphaMaskThatEightBitsCannotCount) {
   EXPECT_NE(drawn.error().message.find("floats"), std::string::npos);
 }
 
+// An engine need not add what only receives: volumes do not end below what was added.
+TEST(DrawMask, ShadesWhatWasNotAdded) {
+  TriMesh casters;
+  test::add_box(casters, {-3, -2, 1}, {1, 2, 6});
+  TriMesh all = casters;
+  test::add_ground(all, 20);
+  const Light lamp(-5, 4, 15, 1);
+  Stage stage = stage_of(test::scene_of(casters));
+  const Engine engine(all);
+  const View view = aerial(kSize, kSize);
+  const Camera camera = camera_of(view, {.near_plane = 1});
+  engine.draw_depths(stage.renderer.clip_of(0, camera));
+  const std::vector<std::uint8_t> lit =
+      engine.lit(stage.renderer.draw_mask(camera, lamp, {}).value());
+  const ShadowMask exact = exact_mask(test::scene_of(all), lamp, view);
+  const auto shadow = std::count(exact.state.begin(), exact.state.end(), ShadowMask::kShadow);
+  ASSERT_GT(shadow, 100);
+  EXPECT_NEAR(double(std::count(lit.begin(), lit.end(), 0)), double(shadow), 5);
+}
+
 TEST(DrawMask, RefusesClipSpacesThatAreNotOpenGLsUsualOne) {
   const TriMesh mesh = one_box();
   Stage stage = stage_of(test::scene_of(mesh));

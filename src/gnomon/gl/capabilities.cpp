@@ -14,6 +14,8 @@ Result<Capabilities> find_capabilities() {
   c.major = v / 10;
   c.minor = v % 10;
   c.renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  for (const char* name : {"llvmpipe", "softpipe", "SwiftShader"})
+    c.software |= c.renderer.find(name) != std::string::npos;
   if (v < (c.es ? 30 : 33)) {
     return Error{"The OpenGL context is " + std::string(version) +
                  "; Gnomon's renderer needs OpenGL 3.3 or OpenGL ES 3.0."};

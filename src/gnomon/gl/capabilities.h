@@ -14,6 +14,7 @@ struct Capabilities {
   bool es = false;            // OpenGL ES
   int major = 0, minor = 0;   // of the context
   std::string renderer;       // GL_RENDERER
+  bool software = false;      // it draws with the processor: llvmpipe, softpipe, SwiftShader
   bool depth_clamp = false;   // core since 3.2; ES: EXT_depth_clamp
   bool depth_bounds = false;  // EXT_depth_bounds_test
   bool float_blend = false;   // 32-bit floats as a target of blending; ES: EXT_float_blend

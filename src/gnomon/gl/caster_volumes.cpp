@@ -25,9 +25,11 @@ struct Builder {
   const GpuMesh& m;
   bool one_point;
   SideForm form;
+  std::vector<std::uint8_t> beyond_receivers{};  // per vertex
   LoopScratch scratch{};
   Silhouette silhouette{};
-  std::vector<std::uint32_t> chunk_of{};  // per triangle; of parts in several volumes
+  std::vector<std::uint32_t> chunk_of{};  // per triangle; 0: of what is in no chunk
+  std::uint32_t chunks = 0;               // so far
 
   void note(bool polygon, std::uint32_t layers) {
     v.polygon.push_back(polygon ? 1 : 0);
@@ -40,6 +42,12 @@ struct Builder {
     return n;
   }
 
+  // z-fail counts what lies behind the receivers, and needs it all.
+  std::span<const std::uint8_t> beyond(bool z_fail) const {
+    if (z_fail) return {};
+    return beyond_receivers;
+  }
+
   void append_group(std::uint32_t p, std::span<const std::uint32_t> group_of, std::uint32_t group,
                     std::span<const std::uint32_t> triangles, std::uint32_t layers) {
     const std::span<const std::uint32_t> edges(m.part_edges.edge.data() + m.part_edges.first[p],
@@ -48,7 +56,7 @@ struct Builder {
     find_part_silhouette(silhouette, m.edges, edges, group_of, group, v.light_side,
                          v.plan[p].casting);
     append_volume(v.lists, m.mesh, silhouette, triangles, v.light_side, one_point,
-                  v.plan[p].casting, form, p, scratch);
+                  v.plan[p].casting, form, p, beyond(v.plan[p].z_fail), scratch, v.grazed_edges);
     note(false, layers);
   }
 
@@ -59,7 +67,8 @@ struct Builder {
     if (plan.by_polygon) {
       for (const std::uint32_t t : part.triangles) {
         if (!casts(plan.casting, v.light_side[t])) continue;
-        append_prism(v.lists, m.mesh, t, v.light_side[t], one_point, p);
+        append_prism(v.lists, m.mesh, t, v.light_side[t], one_point, p, beyond(plan.z_fail),
+                     v.grazed_edges);
         note(true, 1);
       }
       return;
@@ -71,19 +80,22 @@ struct Builder {
       append_group(p, m.parts.part_of, p, part.triangles, layers);
       return;
     }
+    append_chunks(p, part.triangles);
+  }
+
+  // Casting triangles of a part in volumes of at most most_layers of them.
+  void append_chunks(std::uint32_t p, std::span<const std::uint32_t> triangles) {
     chunk_of.resize(m.mesh.triangles.size(), 0);
     std::vector<std::uint32_t> chunk;
-    std::uint32_t number = 0;
     const auto flush = [&] {
       if (!chunk.empty())
-        append_group(p, chunk_of, number, chunk, static_cast<std::uint32_t>(chunk.size()));
+        append_group(p, chunk_of, chunks, chunk, static_cast<std::uint32_t>(chunk.size()));
       chunk.clear();
     };
-    for (const std::uint32_t t : part.triangles) chunk_of[t] = 0;
-    for (const std::uint32_t t : part.triangles) {
-      if (!casts(plan.casting, v.light_side[t])) continue;
-      if (chunk.empty()) ++number;
-      chunk_of[t] = number;
+    for (const std::uint32_t t : triangles) {
+      if (!casts(v.plan[p].casting, v.light_side[t])) continue;
+      if (chunk.empty()) ++chunks;
+      chunk_of[t] = chunks;
       chunk.push_back(t);
       if (chunk.size() == v.most_layers) flush();
     }
@@ -94,8 +106,13 @@ struct Builder {
     for (std::uint32_t r = 0; r < v.regions.size(); ++r) {
       if ((v.region_z_fail[r] != 0) != z_fail) continue;
       const auto triangles = v.regions.triangles_of(r);
+      if (v.most_layers != 0 && triangles.size() > v.most_layers) {
+        append_chunks(m.parts.part_of[triangles[0]], triangles);
+        continue;
+      }
       append_volume(v.lists, m.mesh, v.regions.silhouette_of(r), triangles, v.light_side, one_point,
-                    Casting::all_triangles, form, m.parts.part_of[triangles[0]], scratch);
+                    Casting::all_triangles, form, m.parts.part_of[triangles[0]], beyond(z_fail),
+                    scratch, v.grazed_edges);
       note(false, static_cast<std::uint32_t>(triangles.size()));
     }
   }
@@ -141,8 +158,17 @@ bool update_sides(CasterVolumes& v, const GpuMesh& m, std::uint64_t mesh_version
   if (!same_light) {
     v.light_side = light_sides(m.mesh, light);
     v.grazed = false;
-    for (std::uint32_t t = 0; t < m.mesh.triangles.size() && !v.grazed; ++t)
-      v.grazed = m.receives[t] != 0 && grazes(m.mesh, t, light);
+    v.grazed_edges.clear();
+    for (std::uint32_t t = 0; t < m.mesh.triangles.size(); ++t) {
+      if (!grazes(m.mesh, t, light)) continue;
+      v.grazed |= m.receives[t] != 0;
+      const Triangle& corners = m.mesh.triangles[t];
+      for (int k = 0; k < 3; ++k) {
+        const std::uint32_t a = corners[k], b = corners[(k + 1) % 3];
+        v.grazed_edges.push_back({std::min(a, b), std::max(a, b)});
+      }
+    }
+    std::sort(v.grazed_edges.begin(), v.grazed_edges.end());
   }
   v.light = light;
   v.mesh_version = mesh_version;
@@ -182,7 +208,8 @@ bool update_sides(CasterVolumes& v, const GpuMesh& m, std::uint64_t mesh_version
 }
 
 bool update_lists(CasterVolumes& v, const GpuMesh& m, const Method& method, const NearClip& near,
-                  const glm::mat4& project, std::uint32_t most_layers, bool sides_changed) {
+                  const glm::mat4& project, const Vec4& receivers, std::uint32_t most_layers,
+                  bool sides_changed) {
   // Not so of a bounding plane across x, which leaves [0][0] at 0 too.
   const glm::vec4 none(0.0f);
   const bool one_point =
@@ -192,7 +219,8 @@ bool update_lists(CasterVolumes& v, const GpuMesh& m, const Method& method, cons
     region_z_fail[r] = may_any_shade_near(near, m.mesh, v.regions.triangles_of(r)) ? 1 : 0;
   if (!sides_changed && v.region_z_fail == region_z_fail && v.extrusion == method.extrusion &&
       v.primitives == method.primitives && v.most_layers == most_layers &&
-      v.one_point == one_point && (method.extrusion != Extrusion::cpu || v.project == project)) {
+      v.one_point == one_point && v.receivers == receivers &&
+      (method.extrusion != Extrusion::cpu || v.project == project)) {
     return false;
   }
   v.region_z_fail = std::move(region_z_fail);
@@ -201,11 +229,16 @@ bool update_lists(CasterVolumes& v, const GpuMesh& m, const Method& method, cons
   v.most_layers = most_layers;
   v.one_point = one_point;
   v.project = project;
+  v.receivers = receivers;
 
   v.lists = {};
   v.polygon.clear();
   v.layers_of.clear();
   Builder builder{v, m, v.one_point, form_of(method.primitives)};
+  if (receivers != Vec4(0, 0, 0, 1)) {
+    for (const Vec3& p : m.mesh.positions)
+      builder.beyond_receivers.push_back(glm::dot(receivers, point(p)) <= 0 ? 1 : 0);
+  }
   for (const bool z_fail : {true, false}) {
     for (std::uint32_t p = 0; p < v.plan.size(); ++p) {
       if (!v.plan[p].by_region && v.plan[p].z_fail == z_fail) builder.append_part(p);

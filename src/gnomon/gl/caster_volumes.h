@@ -47,11 +47,13 @@ struct CasterVolumes {
   Primitives primitives = Primitives::quads;
   std::uint32_t most_layers = 0;
   glm::mat4 project{0.0f};
+  Vec4 receivers{0, 0, 0, 1};
   bool one_point = false;  // behind all vertices: a directional light's at infinity
   std::vector<std::uint8_t> region_z_fail;  // per region
 
   std::vector<std::int8_t> light_side;  // per triangle
   bool grazed = false;                // the plane of some receiving triangle nearly holds the light
+  GrazedEdges grazed_edges;           // of all triangles that the light grazes
   std::vector<std::uint8_t> casting;  // per triangle: it counts
   LitRegions regions;                 // of parts by region
   int layers = 0;                     // no ray from the light crosses more casting triangles
@@ -72,11 +74,13 @@ bool update_sides(CasterVolumes& volumes, const GpuMesh& mesh, std::uint64_t mes
                   const Light& light, const std::vector<PartPlan>& plan);
 
 // Brings lists and buffers up to date. `near`: in the mesh's coordinates, for parts by region.
-// `project`: a vertex (x, y, z, 1) to the point behind it. `most_layers`: volumes of more triangles
+// `project`: a vertex (x, y, z, 1) to the point behind it. `receivers`: a plane with the receivers
+// and the near rectangle on its side >= 0, all points behind vertices on the other; sides beyond it
+// are left out where z-pass counts. (0, 0, 0, 1): none is. `most_layers`: volumes of more triangles
 // than that are split; 0: none is. True if they were not.
 bool update_lists(CasterVolumes& volumes, const GpuMesh& mesh, const Method& method,
-                  const NearClip& near, const glm::mat4& project, std::uint32_t most_layers,
-                  bool sides_changed);
+                  const NearClip& near, const glm::mat4& project, const Vec4& receivers,
+                  std::uint32_t most_layers, bool sides_changed);
 
 // The ranges of volumes first .. last - 1 in `indices`, list by list.
 std::array<IndexRange, kListKinds> ranges_of(const CasterVolumes& volumes, std::size_t first,

@@ -3,6 +3,7 @@
 #include <array>
 #include <utility>
 
+#include <glm/common.hpp>
 #include <glm/matrix.hpp>
 
 #include <gnomon/core/exact.h>
@@ -20,6 +21,8 @@ struct InstanceVolumes {
   // Per volume, the vertices of its near caps in State::near_caps: first[k] .. first[k + 1].
   std::vector<std::uint32_t> near_caps;
   bool offset = false;  // sides are moved away: the light grazes something of the scene
+  // Per part, where its volume matters; nothing: perhaps everywhere. Empty: no part is known.
+  std::vector<std::optional<Rect>> rectangles{};
 };
 
 // Volumes drawn together.
@@ -28,6 +31,7 @@ struct Batch {
   bool z_fail = false;
   std::array<IndexRange, kListKinds> ranges{};
   IndexRange near_caps{};
+  std::optional<Rect> scissor{};  // the frame's, where there is none
 };
 
 // Counts that fit. One that wraps, up to kWrapLayers, which the grid of layer_bound() proves; one
@@ -77,30 +81,51 @@ void draw_range(const Frame& frame, const IndexRange& range, GLenum primitive = 
 
 // Sides that start at an edge of a triangle whose plane holds the light lie in that plane. Exactly,
 // they are just behind whatever lies there and is seen from its lit side, and just before what is
-// seen from its unlit one, which count_unlit_receivers() shades; so where there are such triangles,
-// all sides are drawn a little farther away than they are: by the rounding of depths, and that of
-// corners to a 256th of a pixel, eight times over.
+// seen from its unlit one, which count_unlit_receivers() shades; so where such triangles receive,
+// these sides (no others: their shadows' edges would move) are drawn a little farther away than
+// they are: by the rounding of depths, and that of corners to a 256th of a pixel.
 constexpr float kOffsetSlope = 1.0f / 256, kOffsetSteps = 2;
 
-// Which lists a way of counting draws: z-fail the whole surface of the volume, z-pass its sides,
-// and the light caps of casters that are not seen themselves.
-void draw_lists(const Frame& frame, const Method& m,
-                const std::array<IndexRange, kListKinds>& ranges, bool z_fail, bool caps,
-                bool turned, bool offset) {
-  const int first = turned ? kSidesTurned : kSides;
+void draw_sides(const Frame& frame, const Method& m,
+                const std::array<IndexRange, kListKinds>& ranges, bool turned, bool offset) {
+  const GLenum primitive = m.primitives == Primitives::strips ? GL_TRIANGLE_STRIP
+                           : m.primitives == Primitives::fans ? GL_TRIANGLE_FAN
+                                                              : GL_TRIANGLES;
+  draw_range(frame, ranges[turned ? kSidesTurned : kSides], primitive);
+  const IndexRange& grazing = ranges[turned ? kGrazingSidesTurned : kGrazingSides];
+  if (grazing.count == 0) return;
   if (offset) offset_depth(kOffsetSlope, kOffsetSteps);
-  draw_range(frame, ranges[first],
-             m.primitives == Primitives::strips ? GL_TRIANGLE_STRIP
-             : m.primitives == Primitives::fans ? GL_TRIANGLE_FAN
-                                                : GL_TRIANGLES);
+  draw_range(frame, grazing, primitive);
   if (offset) offset_depth(0, 0);
-  if (z_fail || caps) draw_range(frame, ranges[first + kLightCap]);
-  if (z_fail) draw_range(frame, ranges[first + kDarkCap]);
+}
+
+void draw_caps(const Frame& frame, const std::array<IndexRange, kListKinds>& ranges, bool turned) {
+  draw_range(frame, ranges[turned ? kLightCapTurned : kLightCap]);
+  draw_range(frame, ranges[turned ? kDarkCapTurned : kDarkCap]);
+}
+
+// What a way of counting draws of a batch, in a pass that is applied: z-fail the whole surface of
+// the volumes, z-pass their sides, and light caps where they may be in front of the picture.
+void draw_faces(const Frame& frame, const Method& m, const Batch& b, const Pass& pass,
+                bool turned) {
+  draw_sides(frame, m, b.ranges, turned, b.of->offset);
+  if (b.z_fail) return draw_caps(frame, b.ranges, turned);
+  const IndexRange& caps = b.ranges[turned ? kLightCapTurned : kLightCap];
+  if (b.of->plan->caps_in_front == CapsInFront::all) return draw_range(frame, caps);
+  if (b.of->plan->caps_in_front == CapsInFront::none || caps.count == 0) return;
+  if (pass.cull == GL_BACK) return;
+  Pass back = pass;
+  back.cull = GL_FRONT;
+  if (pass.cull == GL_NONE) apply(back, frame);
+  draw_range(frame, caps);
+  if (pass.cull == GL_NONE) apply(pass, frame);
 }
 
 bool any(const std::array<IndexRange, kListKinds>& ranges, bool turned) {
   const int first = turned ? kSidesTurned : kSides;
-  return ranges[first].count + ranges[first + kLightCap].count + ranges[first + kDarkCap].count > 0;
+  return ranges[first].count + ranges[first + kGrazingSides].count +
+             ranges[first + kLightCap].count + ranges[first + kDarkCap].count >
+         0;
 }
 
 // The cut of every volume with the near plane, in clip space, z-pass's start ("Shadow Volumes
@@ -153,11 +178,25 @@ void update_all_lists(const Frame& frame, const LightPlan& plan, Prepared& prepa
   for (std::size_t i = 0; i < prepared.all.size(); ++i) {
     InstanceVolumes& v = prepared.all[i];
     if (update_lists(*v.volumes, *v.mesh, plan.method, v.plan->near, v.plan->project,
-                     prepared.grouped ? kGroupLayers : 0, prepared.changed[i])) {
+                     v.plan->receivers, prepared.grouped ? kGroupLayers : 0, prepared.changed[i])) {
       ++frame.stats->rebuilt;
     }
   }
   if (plan.method.count == Count::near_cap) make_near_caps(frame, prepared.all);
+}
+
+void find_rectangles(const Frame& frame, const LightPlan& plan, InstanceVolumes& v) {
+  v.rectangles.clear();
+  for (const Part& part : v.mesh->parts.parts) {
+    SceneBox box{part.lo, part.hi};
+    std::array<Vec3, 8> corners = corners_of(box);
+    for (Vec3& p : corners) p = Vec3(v.instance->to_scene * point(p));
+    box = {corners[0], corners[0]};
+    for (const Vec3& p : corners) box = {glm::min(box.lo, p), glm::max(box.hi, p)};
+    std::optional<Rect> r = shadow_rectangle(*frame.camera, plan.light, box, *plan.receivers);
+    if (r && plan.method.mask_scale < 1) r = scaled(*r, plan.method.mask_scale);
+    v.rectangles.push_back(r);
+  }
 }
 
 Prepared prepare(const Frame& frame, const LightPlan& plan) {
@@ -175,6 +214,12 @@ Prepared prepare(const Frame& frame, const LightPlan& plan) {
     out.offset |= v.grazed;
   }
   for (InstanceVolumes& v : out.all) v.offset = out.offset;
+  // Volumes that end at a plane cover little that does not matter, and one draw is better. The
+  // start at the near plane would have to be cut as well.
+  if (plan.receivers && plan.method.reach == Reach::infinite &&
+      !starts_at_near_plane(plan.method)) {
+    for (InstanceVolumes& v : out.all) find_rectangles(frame, plan, v);
+  }
   update_all_lists(frame, plan, out);
   for (const InstanceVolumes& v : out.all) {
     frame.stats->z_fail_volumes += static_cast<int>(v.volumes->z_fail_volumes);
@@ -192,8 +237,41 @@ Batch batch_of(const InstanceVolumes& v, std::size_t first, std::size_t last, bo
   return b;
 }
 
+// Where one volume matters, in the frame's scissor; nothing where that is no smaller than half.
+std::optional<Rect> scissor_of(const Frame& frame, const InstanceVolumes& v, std::size_t volume) {
+  if (v.rectangles.empty()) return {};
+  const std::optional<Rect>& own = v.rectangles[v.volumes->lists.volumes[volume].caster];
+  if (!own) return {};
+  const Rect whole = frame.scissor.value_or(Rect{0, 0, frame.camera->width, frame.camera->height});
+  const Rect r = common(whole, *own);
+  const auto area = [](const Rect& x) { return double(x.width) * x.height; };
+  if (area(r) > area(whole) / 2) return {};
+  return r;
+}
+
+// Appends batches of the volumes first .. last - 1: at once, but for those that matter in a small
+// part of the picture. Those that matter nowhere are left out.
+void append_batches(const Frame& frame, std::vector<Batch>& to, const InstanceVolumes& v,
+                    std::size_t first, std::size_t last, bool z_fail) {
+  for (std::size_t k = first; k < last && !v.rectangles.empty(); ++k) {
+    const std::optional<Rect> scissor = scissor_of(frame, v, k);
+    if (!scissor) continue;
+    if (first < k) to.push_back(batch_of(v, first, k, z_fail));
+    first = k + 1;
+    if (scissor->width == 0) {
+      ++frame.stats->culled_volumes;
+      continue;
+    }
+    to.push_back(batch_of(v, k, k + 1, z_fail));
+    to.back().scissor = scissor;
+    ++frame.stats->scissored_volumes;
+  }
+  if (first < last) to.push_back(batch_of(v, first, last, z_fail));
+}
+
 // All volumes, each instance's z-fail and z-pass ones at once; or in groups of few layers.
-std::vector<std::vector<Batch>> batches_of(const Prepared& prepared) {
+std::vector<std::vector<Batch>> batches_of(const Frame& frame, const Prepared& prepared) {
+  frame.stats->scissored_volumes = frame.stats->culled_volumes = 0;
   std::vector<std::vector<Batch>> groups(1);
   std::uint32_t layers = 0;
   for (const InstanceVolumes& v : prepared.all) {
@@ -203,14 +281,14 @@ std::vector<std::vector<Batch>> batches_of(const Prepared& prepared) {
       const std::size_t last = z_fail ? split : end;
       for (std::size_t k = first; prepared.grouped && k < last; ++k) {
         if (layers + v.volumes->layers_of[k] > kGroupLayers) {
-          if (first < k) groups.back().push_back(batch_of(v, first, k, z_fail));
+          append_batches(frame, groups.back(), v, first, k, z_fail);
           groups.emplace_back();
           first = k;
           layers = 0;
         }
         layers += v.volumes->layers_of[k];
       }
-      if (first < last) groups.back().push_back(batch_of(v, first, last, z_fail));
+      append_batches(frame, groups.back(), v, first, last, z_fail);
     }
   }
   return groups;
@@ -295,13 +373,19 @@ void count_phase(const Frame& frame, const LightPlan& plan, const Method& m,
   }
   for (const bool z_fail : {true, false}) {
     for (const bool turned : {false, true}) {
+      Pass p = stencil_pass(m, grouped, z_fail, turned, phase);
       bool applied = false;
+      const InstanceVolumes* used = nullptr;
       for (const Batch& b : batches) {
         if (b.z_fail != z_fail || !any(b.ranges, turned)) continue;
-        if (!applied) apply(stencil_pass(m, grouped, z_fail, turned, phase), frame);
+        if (!applied || b.scissor || p.scissor) {
+          p.scissor = b.scissor;
+          apply(p, frame);
+        }
         applied = true;
-        use_volumes(frame, *b.of, volume_program(frame, plan, z_fail));
-        draw_lists(frame, m, b.ranges, z_fail, b.of->plan->caps_in_front, turned, b.of->offset);
+        if (used != b.of) use_volumes(frame, *b.of, volume_program(frame, plan, z_fail));
+        used = b.of;
+        draw_faces(frame, m, b, p, turned);
       }
     }
   }
@@ -349,7 +433,7 @@ bool count_saturating(const Frame& frame, const LightPlan& plan,
 }
 
 LitTest count_in_stencil(const Frame& frame, const LightPlan& plan, Prepared& prepared) {
-  auto groups = batches_of(prepared);
+  auto groups = batches_of(frame, prepared);
   frame.stats->stencil_groups = 1;
   const bool wraps = prepared.layers <= kWrapLayers;
   if ((plan.method.ops == StencilOps::saturate || !wraps) &&
@@ -367,7 +451,7 @@ LitTest count_in_stencil(const Frame& frame, const LightPlan& plan, Prepared& pr
   }
   prepared.grouped = true;
   update_all_lists(frame, plan, prepared);
-  groups = batches_of(prepared);
+  groups = batches_of(frame, prepared);
   frame.stats->stencil_groups = static_cast<int>(groups.size());
   clear_stencil(frame, kGroupMiddle);
   for (const std::vector<Batch>& batches : groups) {
@@ -420,6 +504,10 @@ void count_by_blending(const Frame& frame, const LightPlan& plan, const Prepared
     for (std::size_t k = 0; k < v.volumes->lists.volumes.size(); ++k) {
       const bool z_fail = k < v.volumes->z_fail_volumes;
       const Batch b = batch_of(v, k, k + 1, z_fail);
+      const std::optional<Rect> scissor = scissor_of(frame, v, k);
+      if (scissor)
+        ++(scissor->width == 0 ? frame.stats->culled_volumes : frame.stats->scissored_volumes);
+      if (scissor && scissor->width == 0) continue;
       for (const bool first : {true, false}) {
         const Blend& blend = first == doubling ? kDouble : kHalve;
         Pass p;
@@ -429,6 +517,7 @@ void count_by_blending(const Frame& frame, const LightPlan& plan, const Prepared
         p.source = blend.source;
         p.destination = blend.destination;
         p.colour = mask_channels(m);
+        p.scissor = scissor;
         if (starts_at_near_plane(m) && (first || m.count == Count::near_cap)) {
           p.cull = first ? GL_BACK : GL_FRONT;  // slivers of a near cap that are turned leave
           draw_near_start(frame, plan, b, p, blend.brightness);
@@ -443,7 +532,7 @@ void count_by_blending(const Frame& frame, const LightPlan& plan, const Prepared
           set(program, "u_front_colour", glm::vec4(front ? blend.brightness : blend.neutral));
           set(program, "u_back_colour", glm::vec4(front ? blend.neutral : blend.brightness));
           apply(p, frame);
-          draw_lists(frame, m, b.ranges, z_fail, v.plan->caps_in_front, turned, v.offset);
+          draw_faces(frame, m, b, p, turned);
         }
       }
     }
@@ -668,9 +757,10 @@ Result<LitTest> draw_light_mask(const Frame& frame, const LightPlan& plan, const
 
 void draw_volume_faces(const Frame& frame, const LightPlan& plan, const Pass& pass,
                        const glm::vec4& colour) {
-  const Prepared prepared = prepare(frame, plan);
+  Prepared prepared = prepare(frame, plan);
+  for (InstanceVolumes& v : prepared.all) v.rectangles.clear();  // they are looked at as a whole
   apply(pass, frame);
-  for (const std::vector<Batch>& batches : batches_of(prepared)) {
+  for (const std::vector<Batch>& batches : batches_of(frame, prepared)) {
     for (const Batch& b : batches) {
       GLuint program =
           frame.state->programs.volume[static_cast<std::size_t>(plan.method.extrusion)].id();
@@ -684,8 +774,10 @@ void draw_volume_faces(const Frame& frame, const LightPlan& plan, const Pass& pa
       }
       set(program, "u_front_colour", colour);
       set(program, "u_back_colour", colour);
-      for (const bool turned : {false, true})
-        draw_lists(frame, plan.method, b.ranges, true, false, turned, false);
+      for (const bool turned : {false, true}) {
+        draw_sides(frame, plan.method, b.ranges, turned, false);
+        draw_caps(frame, b.ranges, turned);
+      }
     }
   }
 }

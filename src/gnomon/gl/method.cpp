@@ -63,8 +63,6 @@ std::string_view name_of(Shadows v) {
   switch (v) {
     case Shadows::automatic:
       return "auto";
-    case Shadows::restored:
-      return "restored";
     case Shadows::lights:
       return "lights";
     case Shadows::black:
@@ -156,8 +154,8 @@ Result<Method> decide(Method m, const Situation& s, const Capabilities& c) {
         "--reach bounded.");
   }
   if (m.reach == Reach::automatic) {
-    const bool infinite =
-        !s.can_bound || m.extrusion == Extrusion::blend_large || m.primitives == Primitives::fans;
+    const bool infinite = !s.can_bound || s.foreign_receivers ||
+                          m.extrusion == Extrusion::blend_large || m.primitives == Primitives::fans;
     m.reach = infinite ? Reach::infinite : Reach::bounded;
   }
   if (m.reach == Reach::bounded && !s.can_bound) {
@@ -263,14 +261,7 @@ Result<Method> decide(Method m, const Situation& s, const Capabilities& c) {
           "of the paper): take --shadows attenuated or lights, or --arithmetic doubling.");
     }
   }
-  const bool can_restore = stencil && m.mask_scale == 1;
-  if (m.shadows == Shadows::automatic)
-    m.shadows = can_restore && s.lights == 1 ? Shadows::restored : Shadows::lights;
-  if (m.shadows == Shadows::restored && !can_restore) {
-    return refuse(
-        "The picture without a light is put back where a full-size stencil says: take --shadows "
-        "lights with other masks.");
-  }
+  if (m.shadows == Shadows::automatic) m.shadows = Shadows::lights;
   if (m.shadows != Shadows::lights && m.shadows != Shadows::none && s.lights > 1) {
     return refuse("Shadows that are " + std::string(name_of(m.shadows)) +
                   " are for one light: take --shadows lights for several.");

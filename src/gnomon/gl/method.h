@@ -30,18 +30,16 @@ enum class Arithmetic : std::uint8_t { doubling, maximum };  // of alpha and scr
 enum class FarPlane : std::uint8_t { automatic, infinite, clamp };
 enum class Extrusion : std::uint8_t { cpu, shader, blend, blend_large };
 // How far volumes reach: to infinity, as the papers have them, or to a plane beyond everything that
-// can be seen, where light, casters and eye allow one; it saves filling what lies below the ground.
+// receives, where light, casters and eye allow one; it saves filling what lies below the ground.
+// automatic: bounded where it can be, but infinite in another renderer's framebuffer.
 enum class Reach : std::uint8_t { automatic, infinite, bounded };
 enum class Primitives : std::uint8_t { quads, strips, fans };
 
 // What becomes of the mask. lights: each light adds its part where it is not shadowed (Everitt and
-// Kilgard, 3.3). restored: one light is drawn with everything else at once, and where it is
-// shadowed the picture without it is put back: the same, with less to blend. The next are the
-// first paper's for one light: black; ambient: and an ambient term added; attenuated: the lit scene
-// at half its brightness. none: there are no shadows, as a measure of what they cost; the first
-// light is drawn with the ambient term in one pass. automatic: restored for one light in the
-// stencil, else lights.
-enum class Shadows : std::uint8_t { automatic, lights, restored, black, ambient, attenuated, none };
+// Kilgard, 3.3). The next are the first paper's for one light: black; ambient: and an ambient term
+// added; attenuated: the lit scene at half its brightness. none: there are no shadows, as a measure
+// of what they cost; the first light is drawn with the ambient term in one pass. automatic: lights.
+enum class Shadows : std::uint8_t { automatic, lights, black, ambient, attenuated, none };
 
 struct Method {
   MaskIn mask = MaskIn::stencil;
@@ -77,8 +75,9 @@ struct Situation {
   bool near_shaded = false;          // some caster may shade the near rectangle (near clip volume)
   bool target_stencil = true;        // the framebuffer can have a stencil attachment
   bool target_alpha = true;
-  bool infinite_view = true;  // the view's far plane can be at infinity
-  bool can_bound = false;     // there is a plane for Reach::bounded
+  bool infinite_view = true;       // the view's far plane can be at infinity
+  bool can_bound = false;          // there is a plane for Reach::bounded
+  bool foreign_receivers = false;  // more may be seen than the casters and receivers that are known
   int lights = 1;
 };
 

@@ -256,9 +256,9 @@ std::string other_tables(Notes& notes) {
                {"--arithmetic",
                 choices_of(&Method::arithmetic, {Arithmetic::doubling, Arithmetic::maximum})},
                masks(), MaskIn::alpha);
-  const std::vector<Choice> shadows =
-      choices_of(&Method::shadows, {Shadows::automatic, Shadows::lights, Shadows::restored,
-                                    Shadows::black, Shadows::ambient, Shadows::attenuated});
+  const std::vector<Choice> shadows = choices_of(
+      &Method::shadows,
+      {Shadows::automatic, Shadows::lights, Shadows::black, Shadows::ambient, Shadows::attenuated});
   text += pair("Arithmetic of alpha and screen masks against what a shadow is:",
                {"--arithmetic",
                 choices_of(&Method::arithmetic, {Arithmetic::doubling, Arithmetic::maximum})},

@@ -16,12 +16,10 @@
 namespace gnomon::gl {
 namespace {
 
-struct Box3 {
-  Vec3 lo, hi;
-};
+constexpr double kInf = std::numeric_limits<double>::infinity();
 
-Box3 box_of(std::span<const Vec3> points) {
-  Box3 box{points[0], points[0]};
+SceneBox box_of(std::span<const Vec3> points) {
+  SceneBox box{points[0], points[0]};
   for (const Vec3& p : points) {
     box.lo = glm::min(box.lo, p);
     box.hi = glm::max(box.hi, p);
@@ -29,7 +27,7 @@ Box3 box_of(std::span<const Vec3> points) {
   return box;
 }
 
-bool overlap(const Box3& box, const Vec3& lo, const Vec3& hi) {
+bool overlap(const SceneBox& box, const Vec3& lo, const Vec3& hi) {
   return box.lo.x <= hi.x && lo.x <= box.hi.x && box.lo.y <= hi.y && lo.y <= box.hi.y &&
          box.lo.z <= hi.z && lo.z <= box.hi.z;
 }
@@ -53,34 +51,45 @@ constexpr double kReachSlack = 1e-6;   // of a radius: far above rounding, far b
 constexpr double kLarge = 16777216.0;  // "Accelerated Stencil Shadow Extrusion": LARGE
 // How far beyond everything that is seen the bounding plane lies: this share of the scene's
 // diagonal, and so many steps of the depth buffer at the farthest of it.
-constexpr double kBoundMargin = 1.0 / 1024;
+constexpr double kBoundMargin = 0x1p-13;
+// The light's distance from the highest caster, of that from the plane, and the sine of a sun's
+// height over it, are more than this: floats hold the points on the plane to 2^-24 of their
+// distance from the caster over it, 2^-14.
+constexpr double kBoundClear = 0x1p-10;
 constexpr double kBoundSteps = 8;
+
+// Round boxes of all instances, which are given in their meshes' coordinates.
+SceneBox box_round(const Frame& frame, Vec3 GpuMesh::*lo, Vec3 GpuMesh::*hi) {
+  SceneBox out{Vec3(kInf), Vec3(-kInf)};
+  for (const InstanceSlot& instance : frame.state->instances) {
+    if (!instance.alive) continue;
+    const GpuMesh& mesh = frame.state->meshes[instance.mesh].gpu;
+    if (!((mesh.*lo).x <= (mesh.*hi).x)) continue;
+    for (const Vec3& corner : corners_of({mesh.*lo, mesh.*hi})) {
+      const Vec3 p(instance.to_scene * point(corner));
+      out.lo = glm::min(out.lo, p);
+      out.hi = glm::max(out.hi, p);
+    }
+  }
+  return out;
+}
+
+SceneBox casters_of(const Frame& frame) {
+  return box_round(frame, &GpuMesh::caster_lo, &GpuMesh::caster_hi);
+}
 
 // A plane h with light, near rectangle, receivers and casters on its positive side (h . X > 0) and
 // every ray from the light through a caster crossing it: of the six sides of the receivers' box,
 // moved outwards, the one that the light meets most directly.
-std::optional<Vec4> bounding_plane(const Frame& frame, const Light& light) {
-  constexpr double kInf = std::numeric_limits<double>::infinity();
-  Vec3 lo(kInf), hi(-kInf), caster_lo(kInf), caster_hi(-kInf);
-  for (const InstanceSlot& instance : frame.state->instances) {
-    if (!instance.alive) continue;
-    const GpuMesh& mesh = frame.state->meshes[instance.mesh].gpu;
-    for (int i = 0; i < 8; ++i) {
-      const auto corner = [&](const Vec3& a, const Vec3& b) {
-        return Vec3(instance.to_scene *
-                    point(Vec3((i & 1) != 0 ? b.x : a.x, (i & 2) != 0 ? b.y : a.y,
-                               (i & 4) != 0 ? b.z : a.z)));
-      };
-      if (mesh.lo.x <= mesh.hi.x) {
-        lo = glm::min(lo, corner(mesh.lo, mesh.hi));
-        hi = glm::max(hi, corner(mesh.lo, mesh.hi));
-      }
-      if (mesh.caster_lo.x <= mesh.caster_hi.x) {
-        caster_lo = glm::min(caster_lo, corner(mesh.caster_lo, mesh.caster_hi));
-        caster_hi = glm::max(caster_hi, corner(mesh.caster_lo, mesh.caster_hi));
-      }
-    }
-  }
+struct Bound {
+  Vec4 plane;
+  // What is farther along the plane's normal than this, h . X, is nothing that receives; infinite
+  // where the near rectangle is not on the receivers' side.
+  double receivers = 0;
+};
+std::optional<Bound> bounding_plane(const Frame& frame, const Light& light) {
+  const auto [lo, hi] = receivers_of(frame);
+  const auto [caster_lo, caster_hi] = casters_of(frame);
   if (!(lo.x <= hi.x) || !(caster_lo.x <= caster_hi.x)) return {};
   // One step of a 24-bit depth buffer at the farthest corner, in metres.
   const Camera& camera = *frame.camera;
@@ -96,7 +105,7 @@ std::optional<Vec4> bounding_plane(const Frame& frame, const Light& light) {
     step = std::max(step, 0x1p-23 / glm::length(slope));
   }
   const double margin = glm::distance(lo, hi) * kBoundMargin + kBoundSteps * step;
-  std::optional<Vec4> best;
+  std::optional<Bound> best;
   double most = 0;
   for (int axis = 0; axis < 3; ++axis) {
     for (const double sign : {1.0, -1.0}) {
@@ -110,24 +119,26 @@ std::optional<Vec4> bounding_plane(const Frame& frame, const Light& light) {
       // A point light keeps its distance from the highest caster, a sun an angle from the plane.
       const double clear =
           light.w != 0 ? (side - (top + h.w)) / side : side / glm::length(Vec3(light));
-      if (!(side > 0) || !(clear > kBoundMargin) || clear < most) continue;
-      bool near_inside = true;
-      for (const Vec3& p : camera.near_rectangle) near_inside &= glm::dot(h, point(p)) > 0;
-      if (!near_inside) continue;
+      if (!(side > 0) || !(clear > kBoundClear) || clear < most) continue;
+      double nearest = kInf;
+      for (const Vec3& p : camera.near_rectangle)
+        nearest = std::min(nearest, glm::dot(h, point(p)));
+      if (!(nearest > 0)) continue;
       most = clear;
-      best = h;
+      const double receivers = (sign > 0 ? lo[axis] : -hi[axis]) + h.w;
+      best = Bound{h, nearest > receivers ? receivers : -kInf};
     }
   }
   return best;
 }
 
-// Points behind vertices, in the mesh's coordinates; `plane` in the scene's.
-glm::mat4 projection(const Light& light, const Method& m, const std::optional<Vec4>& plane,
+// Points behind vertices, in the mesh's coordinates; `bound` in the scene's.
+glm::mat4 projection(const Light& light, const Method& m, const std::optional<Bound>& bound,
                      const glm::dmat4& to_scene) {
   glm::dmat4 out(0.0);
   if (m.reach == Reach::bounded) {
     // X' = (h.L) X - (h.X) L, divided by h.L.
-    const Vec4 h = *plane * to_scene;  // row times matrix
+    const Vec4 h = bound->plane * to_scene;  // row times matrix
     const double side = glm::dot(h, light);
     for (int column = 0; column < 4; ++column) {
       for (int row = 0; row < 4; ++row)
@@ -147,38 +158,26 @@ glm::mat4 projection(const Light& light, const Method& m, const std::optional<Ve
 
 }  // namespace
 
+SceneBox receivers_of(const Frame& frame) { return box_round(frame, &GpuMesh::lo, &GpuMesh::hi); }
+
 Frame within_reach(const Frame& frame, const LightSource& light) {
   if (light.light.w == 0 || !(light.radius > 0)) return frame;
   const Camera& camera = *frame.camera;
   const Vec3 at = Vec3(light.light) / light.light.w;
-  glm::dvec3 lo(1.0), hi(-1.0);
-  for (int i = 0; i < 8; ++i) {
-    const Vec3 d((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1, (i & 4) != 0 ? 1 : -1);
-    const Vec4 p = camera.clip * point(at + light.radius * d);
-    if (!(p.w > 0)) return frame;  // the ball's box meets the eye's plane
-    lo = i == 0 ? glm::dvec3(p) / p.w : glm::min(lo, glm::dvec3(p) / p.w);
-    hi = i == 0 ? glm::dvec3(p) / p.w : glm::max(hi, glm::dvec3(p) / p.w);
+  const std::array<Vec3, 8> corners = corners_of({at - light.radius, at + light.radius});
+  const std::optional<Rect> rectangle = rectangle_round(camera, corners);
+  if (!rectangle) return frame;  // the ball's box meets the eye's plane
+  double nearest = kInf, farthest = -kInf;
+  for (const Vec3& corner : corners) {
+    const Vec4 p = camera.clip * point(corner);
+    nearest = std::min(nearest, p.z / p.w);
+    farthest = std::max(farthest, p.z / p.w);
   }
   Frame out = frame;
-  // A pixel more on each side for rounding.
-  const auto pixels = [](double x, int size) {
-    return std::clamp((x + 1) / 2 * size, -1.0, size + 1.0);
-  };
-  const Rect whole = frame.scissor.value_or(Rect{0, 0, camera.width, camera.height});
-  Rect r;
-  r.x = std::max(whole.x, static_cast<int>(std::floor(pixels(lo.x, camera.width))) - 1);
-  r.y = std::max(whole.y, static_cast<int>(std::floor(pixels(lo.y, camera.height))) - 1);
-  r.width =
-      std::min(whole.x + whole.width, static_cast<int>(std::ceil(pixels(hi.x, camera.width))) + 1) -
-      r.x;
-  r.height = std::min(whole.y + whole.height,
-                      static_cast<int>(std::ceil(pixels(hi.y, camera.height))) + 1) -
-             r.y;
-  if (r.width <= 0 || r.height <= 0) r = Rect{0, 0, 0, 0};
-  out.scissor = r;
+  out.scissor = frame.scissor ? common(*frame.scissor, *rectangle) : *rectangle;
   constexpr double kSteps = 0x1p-22;  // a few steps of 24 bits
-  out.depth_bounds = {std::clamp(lo.z / 2 + 0.5 - kSteps, 0.0, 1.0),
-                      std::clamp(hi.z / 2 + 0.5 + kSteps, 0.0, 1.0)};
+  out.depth_bounds = {std::clamp(nearest / 2 + 0.5 - kSteps, 0.0, 1.0),
+                      std::clamp(farthest / 2 + 0.5 + kSteps, 0.0, 1.0)};
   return out;
 }
 
@@ -201,6 +200,7 @@ Result<LightPlan> plan_light(const Frame& frame, const Light& asked, double radi
   s.target_alpha = target.alpha;
   s.infinite_view = camera.infinite;
   s.lights = target.lights;
+  s.foreign_receivers = target.foreign;
 
   plan.instances.resize(state.instances.size());
   std::vector<std::vector<bool>> shades(state.instances.size());
@@ -217,10 +217,11 @@ Result<LightPlan> plan_light(const Frame& frame, const Light& asked, double radi
     if (moved) {
       for (Vec3& p : rectangle) p = Vec3(to_mesh * point(p));
     }
-    const Box3 near_box = box_of(rectangle);
+    const SceneBox near_box = box_of(rectangle);
     out.near = near_clip_volume(rectangle, out.light);
-    const Box3 light_box{Vec3(out.light), Vec3(out.light)};
-    out.caps_in_front = culls_back_faces(frame, instance, mesh);
+    const SceneBox light_box{Vec3(out.light), Vec3(out.light)};
+    if (target.foreign || culls_back_faces(frame, instance, mesh))
+      out.caps_in_front = CapsInFront::seen_from_behind;
     out.parts.resize(mesh.parts.parts.size());
     shades[i].resize(mesh.parts.parts.size());
     for (std::size_t p = 0; p < mesh.parts.parts.size(); ++p) {
@@ -229,7 +230,7 @@ Result<LightPlan> plan_light(const Frame& frame, const Light& asked, double radi
       shades[i][p] = may_shade_near(out.near, part.lo, part.hi) &&
                      may_any_shade_near(out.near, mesh.mesh, part.triangles);
       if (shades[i][p]) s.near_shaded = true;
-      if (mesh.part_seen[p] == 0) out.caps_in_front = true;
+      if (mesh.part_seen[p] == 0) out.caps_in_front = CapsInFront::all;
       // What a light of a radius cannot reach shades nothing that it reaches.
       const double scale = std::cbrt(std::fabs(glm::determinant(glm::dmat3(instance.to_scene))));
       pp.left_out =
@@ -248,8 +249,9 @@ Result<LightPlan> plan_light(const Frame& frame, const Light& asked, double radi
       if (!half || !part.convex) s.all_convex = false;
     }
   }
-  const std::optional<Vec4> plane = bounding_plane(frame, light);
-  s.can_bound = plane.has_value();
+  if (!target.foreign) plan.receivers = receivers_of(frame);
+  const std::optional<Bound> bound = bounding_plane(frame, light);
+  s.can_bound = bound.has_value();
   Result<Method> decided = decide(wanted, s, state.capabilities);
   if (!decided) return decided.error();
   plan.method = decided.value();
@@ -257,7 +259,12 @@ Result<LightPlan> plan_light(const Frame& frame, const Light& asked, double radi
   for (std::size_t i = 0; i < plan.instances.size(); ++i) {
     if (!state.instances[i].alive) continue;
     plan.instances[i].project =
-        projection(plan.instances[i].light, m, plane, state.instances[i].to_scene);
+        projection(plan.instances[i].light, m, bound, state.instances[i].to_scene);
+    if (m.reach == Reach::bounded && std::isfinite(bound->receivers)) {
+      Vec4 h = bound->plane;
+      h.w -= bound->receivers;
+      plan.instances[i].receivers = h * state.instances[i].to_scene;
+    }
     for (std::size_t p = 0; p < plan.instances[i].parts.size(); ++p) {
       PartPlan& pp = plan.instances[i].parts[p];
       pp.by_polygon = m.volumes == VolumesOf::polygon;

@@ -123,7 +123,7 @@ Result<Programs> compile_programs() {
 Result<GLuint> surface_program(Programs& programs, unsigned variant) {
   ProgramHandle& program = programs.surface[variant];
   if (!program) {
-    constexpr const char* kNames[] = {"LIT",    "TEXTURED", "SMOOTH", "SPECULAR",
+    constexpr const char* kNames[] = {"LIT",    "TEXTURED", "FACETS", "SPECULAR",
                                       "FADING", "MASKED",   "INSIDE"};
     std::string defines;
     for (int i = 0; i < 7; ++i) {

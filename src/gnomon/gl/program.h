@@ -32,7 +32,7 @@ void set(GLuint program, const char* name, const glm::mat4& value);
 enum SurfaceVariant : unsigned {
   kLit = 1,       // a light; without: ambient and emission alone
   kTextured = 2,  // pictures for base colour or normals
-  kSmooth = 4,    // normals that are not those of facets
+  kFacets = 4,    // every corner's normal is its facet's, and no highlight
   kSpecular = 8,
   kFading = 16,  // distance attenuation or a radius
   kMasked = 32,  // times a mask in a texture

@@ -41,37 +41,6 @@ void clear(const Frame& frame, const Target& target, const Vec3& background) {
           (target.format.stencil ? GL_STENCIL_BUFFER_BIT : 0));
 }
 
-// The pixels that receivers may cover, a pixel more on each side; nothing where the eye's plane
-// meets their box.
-std::optional<Rect> visible_rectangle(const Frame& frame) {
-  glm::dvec2 lo(1.0), hi(-1.0);
-  for (const InstanceSlot& instance : frame.state->instances) {
-    if (!instance.alive) continue;
-    const GpuMesh& mesh = frame.state->meshes[instance.mesh].gpu;
-    if (!(mesh.lo.x <= mesh.hi.x)) continue;
-    const glm::dmat4 clip = frame.camera->clip * instance.to_scene;
-    for (int i = 0; i < 8; ++i) {
-      const Vec4 p = clip * point(Vec3((i & 1) != 0 ? mesh.hi.x : mesh.lo.x,
-                                       (i & 2) != 0 ? mesh.hi.y : mesh.lo.y,
-                                       (i & 4) != 0 ? mesh.hi.z : mesh.lo.z));
-      if (!(p.w > 0)) return {};
-      const glm::dvec2 at = glm::dvec2(p) / p.w;
-      lo = glm::min(lo, at);
-      hi = glm::max(hi, at);
-    }
-  }
-  lo = glm::clamp(lo, -1.0, 1.0);
-  hi = glm::clamp(hi, -1.0, 1.0);
-  const int width = frame.camera->width, height = frame.camera->height;
-  Rect r;
-  r.x = std::max(0, static_cast<int>(std::floor((lo.x + 1) / 2 * width)) - 1);
-  r.y = std::max(0, static_cast<int>(std::floor((lo.y + 1) / 2 * height)) - 1);
-  r.width = std::min(width, static_cast<int>(std::ceil((hi.x + 1) / 2 * width)) + 1) - r.x;
-  r.height = std::min(height, static_cast<int>(std::ceil((hi.y + 1) / 2 * height)) + 1) - r.y;
-  if (r.width <= 0 || r.height <= 0) return Rect{0, 0, 0, 0};
-  return r;
-}
-
 // A colour wherever nothing was drawn: a rectangle in the far plane.
 void draw_background(const Frame& frame, const Vec3& colour) {
   Pass p = colour_pass(GL_EQUAL);
@@ -117,14 +86,7 @@ glm::vec4 channel_of(const Method& m) {
 // A mask at a lower resolution, in a texture (Roettger et al., 4.5).
 Result<Target> low_mask(const Frame& full, const LightPlan& plan) {
   Frame frame = full;
-  if (full.scissor) {
-    const double k = plan.method.mask_scale;
-    const Rect& r = *full.scissor;
-    Rect low{static_cast<int>(std::floor(r.x * k)), static_cast<int>(std::floor(r.y * k)), 0, 0};
-    low.width = static_cast<int>(std::ceil((r.x + r.width) * k)) - low.x;
-    low.height = static_cast<int>(std::ceil((r.y + r.height) * k)) - low.y;
-    frame.scissor = low;
-  }
+  if (full.scissor) frame.scissor = scaled(*full.scissor, plan.method.mask_scale);
   Result<Target> made = make_target(format_of(*frame.camera, plan.method, plan.method.mask_scale));
   if (!made) return made.error();
   Target target = std::move(made).value();
@@ -143,9 +105,11 @@ void bind(const Target& target) {
   glViewport(0, 0, target.format.width, target.format.height);
 }
 
-// Each light adds its part where it is not shadowed (Everitt and Kilgard, 3.3).
+// Each light adds its part where it is not shadowed (Everitt and Kilgard, 3.3). The first one in
+// the stencil draws over what is there, with that in its sum: nothing is blended, and rounded once.
 Result<bool> add_lights(const Frame& whole, const Target& picture,
-                        std::span<const LightSource> lights, std::span<const LightPlan> plans) {
+                        std::span<const LightSource> lights, std::span<const LightPlan> plans,
+                        const FrameOptions& options) {
   std::optional<Target> screen;
   for (std::size_t i = 0; i < lights.size(); ++i) {
     const Frame frame = within_reach(whole, lights[i]);
@@ -166,6 +130,11 @@ Result<bool> add_lights(const Frame& whole, const Target& picture,
     } else if (m.mask == MaskIn::stencil) {
       const Result<LitTest> lit = draw_light_mask(frame, plan, &picture);
       if (!lit) return lit.error();
+      if (i == 0) {
+        add.blend = false;
+        lighting.ambient = options.ambient;
+        lighting.emission = true;
+      }
       draw_where_lit(add, lit.value(), !m.keep_double_blending);
       draw_lit(frame, add, lighting);
     } else if (m.mask == MaskIn::alpha) {
@@ -391,30 +360,20 @@ Result<FrameStats> Renderer::draw(const Camera& camera, std::span<const LightSou
   }
   const Target& picture = *state_->picture;
   clear(frame, picture, options.background);
-  frame.scissor = visible_rectangle(frame);
+  const SceneBox seen = receivers_of(frame);
+  if (seen.lo.x <= seen.hi.x) frame.scissor = rectangle_round(camera, corners_of(seen));
   Result<bool> drawn = true;
   const Shadows shadows = lights.empty()  ? Shadows::lights
                           : plans.empty() ? Shadows::none
                                           : plans.front().method.shadows;
-  if (shadows == Shadows::restored) {
-    Lighting all;
-    all.light = &lights.front();
-    all.ambient = options.ambient;
-    all.emission = true;
-    draw_lit(frame, first_pass(true), all);
-    const Frame reached = within_reach(frame, lights.front());
-    const Result<LitTest> lit = draw_light_mask(reached, plans.front(), &picture);
-    if (!lit) return lit.error();
-    Pass restore = colour_pass(GL_EQUAL);
-    draw_where_shadowed(restore, lit.value());
-    all.light = nullptr;
-    draw_lit(reached, restore, all);
-  } else if (shadows == Shadows::lights) {
+  if (shadows == Shadows::lights) {
     Lighting ambient;
     ambient.ambient = options.ambient;
     ambient.emission = true;
     draw_lit(frame, first_pass(true), ambient);
-    drawn = add_lights(frame, picture, lights, plans);
+    // Its threads draw while volumes are made; on a graphics card it would only break up the pass.
+    if (state_->capabilities.software) glFlush();
+    drawn = add_lights(frame, picture, lights, plans, options);
   } else if (shadows == Shadows::none) {
     draw_unshadowed(frame, lights, options);
   } else {
@@ -535,7 +494,7 @@ Result<FrameStats> Renderer::draw_mask(const Camera& camera, const Light& light,
                                         bound == 0 ? GL_BACK_LEFT : GL_COLOR_ATTACHMENT0,
                                         GL_FRAMEBUFFER_ATTACHMENT_ALPHA_SIZE, &alpha_bits);
   Result<LightPlan> plan =
-      plan_light(frame, light, 0, 0, method, {stencil_bits != GL_NONE, alpha_bits > 0, 1});
+      plan_light(frame, light, 0, 0, method, {stencil_bits != GL_NONE, alpha_bits > 0, 1, true});
   if (!plan) return plan.error();
   counted.method = plan.value().method;
   if (counted.method.float_bits > 0) {

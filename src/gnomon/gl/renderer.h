@@ -66,11 +66,13 @@ struct FrameStats {
   int volume_draws = 0;      // draw calls of volumes
   std::uint64_t volume_triangles = 0;
   int z_pass_volumes = 0, z_fail_volumes = 0;
-  int polygon_volumes = 0;  // of these, volumes of single polygons
-  int rebuilt = 0;          // casters' volumes made anew; the others were kept
-  int moved_lights = 0;     // lamps that touched a caster: shadows are those of lamps beside them,
-                            // 2^-13 of the largest coordinate away (docs/renderer-limits.md)
-  int stencil_groups = 0;   // groups of casters counted apart so that no count overflows
+  int polygon_volumes = 0;    // of these, volumes of single polygons
+  int scissored_volumes = 0;  // volumes drawn within a rectangle of their own
+  int culled_volumes = 0;     // volumes that shade nothing in the picture and were not drawn
+  int rebuilt = 0;            // casters' volumes made anew; the others were kept
+  int moved_lights = 0;    // lamps that touched a caster: shadows are those of lamps beside them,
+                           // 2^-13 of the largest coordinate away (docs/renderer-limits.md)
+  int stencil_groups = 0;  // groups of casters counted apart so that no count overflows
   // Of draw_mask(): a sample is lit where (stencil & lit_bits) <= lit_at_most.
   int lit_at_most = 0;
   unsigned lit_bits = 0xff;
@@ -128,8 +130,9 @@ class Renderer {
   // of the scene, drawn with clip_of() (see there) in the viewport, depth range and provoking
   // vertex that are set; nearer depths are less. Afterwards a sample is in shadow where, by
   // method.mask, in the stencil (stencil & lit_bits) > lit_at_most, see FrameStats; or where alpha
-  // is below one half. Colours (alpha: rgb) and depths are not touched. Errors: decide()'s reasons;
-  // a screen mask or one of lower resolution, or one in floats (see Method), which need a
+  // is below one half. Colours (alpha: rgb) and depths are not touched. Shadows fall on whatever is
+  // in the depths; if all of that was added here, Reach::bounded saves time. Errors: decide()'s
+  // reasons; a screen mask or one of lower resolution, or one in floats (see Method), which need a
   // framebuffer of ours; a clip space that is not OpenGL's usual one. Precondition: no query and no
   // transform feedback is active.
   Result<FrameStats> draw_mask(const Camera& camera, const Light& light, const Method& method);

@@ -14,6 +14,7 @@
 #include <gnomon/gl/pass.h>
 #include <gnomon/gl/program.h>
 #include <gnomon/gl/renderer.h>
+#include <gnomon/gl/screen_rectangle.h>
 #include <gnomon/gl/target.h>
 
 namespace gnomon::gl {
@@ -66,19 +67,26 @@ inline void apply(Pass pass, const Frame& frame) {
   apply(pass, frame.state->support);
 }
 
+// Which light caps z-pass counts too. Caps lie on the casters' surfaces, at the same depth bit for
+// bit, so they are in front of nothing where casters are drawn, but for faces that are seen from
+// behind and were left out (culls_back_faces()), and for casters that are not drawn at all.
+enum class CapsInFront : std::uint8_t { none, seen_from_behind, all };
+
 // One light of a frame.
 struct LightPlan {
   Light light{0, 0, 1, 0};
   std::uint32_t number = 0;  // which of the frame's lights
   Method method;             // decided
   struct OfInstance {
-    Light light{0, 0, 1, 0};  // in the mesh's coordinates
-    NearClip near;            // likewise
-    glm::mat4 project{0.0f};  // likewise: a vertex to the point behind it
+    Light light{0, 0, 1, 0};     // in the mesh's coordinates
+    NearClip near;               // likewise
+    glm::mat4 project{0.0f};     // likewise: a vertex to the point behind it
+    Vec4 receivers{0, 0, 0, 1};  // likewise: see update_lists()
     std::vector<PartPlan> parts;
-    bool caps_in_front = false;  // z-pass must count caps too: some caster is not drawn
+    CapsInFront caps_in_front = CapsInFront::none;
   };
   std::vector<OfInstance> instances;  // by InstanceId; empty parts where not alive
+  std::optional<SceneBox> receivers;  // nothing else is seen, if known
 };
 
 // What decides the method, and the plan of every part. Error: decide()'s. `target_*`: of the
@@ -86,10 +94,14 @@ struct LightPlan {
 struct TargetFacts {
   bool stencil = true, alpha = true;
   int lights = 1;
+  bool foreign = false;  // its depths are another renderer's, maybe of more than was added here
 };
 // `radius`: the light ends there, metres; 0: it does not end.
 Result<LightPlan> plan_light(const Frame& frame, const Light& light, double radius,
                              std::uint32_t number, const Method& wanted, const TargetFacts& target);
+
+// The box round all that is seen.
+SceneBox receivers_of(const Frame& frame);
 
 // The frame within the reach of a light: scissor and depth bounds.
 Frame within_reach(const Frame& frame, const LightSource& light);

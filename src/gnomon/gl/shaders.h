@@ -122,18 +122,32 @@ in vec2 a_texture;
 uniform mat4 u_clip;
 uniform mat4 u_model;
 uniform mat3 u_normal_matrix;
+uniform vec4 u_light;
 #ifdef INSIDE
 uniform mat4 u_inside;
 out vec4 v_inside;
 #endif
 invariant gl_Position;
-out vec3 v_position;
+#ifdef FACETS
+flat out float v_height;
+#else
 out vec3 v_normal;
+#endif
+out vec3 v_position;
+out vec3 v_to_light;
 out vec2 v_texture;
 void main() {
   gl_Position = u_clip * a_vertex;
   v_position = (u_model * a_vertex).xyz;
-  v_normal = u_normal_matrix * a_normal;
+  v_to_light = u_light.xyz - v_position * u_light.w;
+  vec3 normal = u_normal_matrix * a_normal;
+  float squared = dot(normal, normal);
+  if (squared > 0.0) normal *= inversesqrt(squared);
+#ifdef FACETS
+  v_height = dot(normal, v_to_light);
+#else
+  v_normal = normal;
+#endif
   v_texture = a_texture;
 #ifdef INSIDE
   v_inside = u_inside * a_vertex;
@@ -144,13 +158,17 @@ void main() {
 // Blinn and Phong, per pixel, in the encoding of the picture. Both sides of a surface are drawn:
 // the normal is turned to the eye. Normal maps take their tangents from the derivatives of position
 // and texture coordinates. Variants by SurfaceVariant: what a picture does not have is not
-// computed.
+// computed. FACETS: matt ones, over which the light's height is the same everywhere.
 inline constexpr const char* kSurfaceFragment = R"(
-in vec3 v_position;
+#ifdef FACETS
+flat in float v_height;
+#else
 in vec3 v_normal;
+#endif
+in vec3 v_position;
+in vec3 v_to_light;
 in vec2 v_texture;
 uniform vec4 u_eye;
-uniform vec4 u_light;
 uniform vec3 u_light_colour;
 uniform vec3 u_ambient;
 uniform vec3 u_attenuation;
@@ -194,17 +212,18 @@ void main() {
 #endif
   vec3 colour = base * u_ambient + u_emissive;
 #ifdef LIT
-  vec3 n = gl_FrontFacing ? v_normal : -v_normal;
-#ifdef SMOOTH
-  n = normalize(n);
-#endif
+  float squared = dot(v_to_light, v_to_light);
+  float nearness = inversesqrt(squared);
+#ifdef FACETS
+  float diffuse = max(gl_FrontFacing ? v_height : -v_height, 0.0) * nearness;
+#else
+  vec3 n = normalize(gl_FrontFacing ? v_normal : -v_normal);
 #ifdef TEXTURED
-  if (u_has_normal == 1) n = mapped_normal(normalize(n));
+  if (u_has_normal == 1) n = mapped_normal(n);
 #endif
-  vec3 l = u_light.xyz - v_position * u_light.w;
-  float squared = dot(l, l);
-  l *= inversesqrt(squared);
+  vec3 l = v_to_light * nearness;
   float diffuse = max(dot(n, l), 0.0);
+#endif
   vec3 lit = base * diffuse;
 #ifdef SPECULAR
   vec3 to_eye = normalize(u_eye.xyz - v_position * u_eye.w);

@@ -51,31 +51,49 @@ bool culls_back_faces(const Frame& frame, const InstanceSlot& instance, const Gp
   return true;
 }
 
+// Some receiving triangles in one colour, of the vertices that all triangles share.
+class FlatSurfaces {
+ public:
+  explicit FlatSurfaces(const Frame& frame)
+      : frame_(frame),
+        inside_(frame.camera->keep_inside),
+        program_(inside_ ? frame.state->programs.flat_inside.id()
+                         : frame.state->programs.flat.id()) {}
+  void use(const InstanceSlot& instance, const GpuMesh& mesh) const {
+    glUseProgram(program_);
+    set(program_, "u_clip", frame_.clip_of(instance));
+    if (inside_) set(program_, "u_inside", glm::mat4(*inside_ * instance.to_scene));
+    glBindVertexArray(mesh.surface.id());
+  }
+  void draw(const glm::vec4& colour, GLsizei first, GLsizei count) const {
+    if (count == 0) return;
+    set(program_, "u_colour", colour);
+    glDrawElements(
+        GL_TRIANGLES, count, GL_UNSIGNED_INT,
+        reinterpret_cast<const void*>(static_cast<std::uintptr_t>(first) * sizeof(std::uint32_t)));
+  }
+
+ private:
+  const Frame& frame_;
+  const std::optional<glm::dmat4>& inside_;
+  GLuint program_;
+};
+
 void draw_depth(const Frame& frame, const Pass& pass) { draw_flat(frame, pass, glm::vec4(0)); }
 
 void draw_flat(const Frame& frame, const Pass& pass, const glm::vec4& colour) {
   Culling culling(frame, pass);
-  const std::optional<glm::dmat4>& inside = frame.camera->keep_inside;
-  const GLuint program =
-      inside ? frame.state->programs.flat_inside.id() : frame.state->programs.flat.id();
-  glUseProgram(program);
-  set(program, "u_colour", colour);
+  const FlatSurfaces flat(frame);
   for (const InstanceSlot& instance : frame.state->instances) {
     if (!instance.alive) continue;
     const GpuMesh& mesh = frame.state->meshes[instance.mesh].gpu;
     if (mesh.surface_count == 0) continue;
     const GLsizei solid = culls_back_faces(frame, instance, mesh) ? mesh.solid_count : 0;
-    set(program, "u_clip", frame.clip_of(instance));
-    if (inside) set(program, "u_inside", glm::mat4(*inside * instance.to_scene));
-    glBindVertexArray(mesh.surface.id());
-    for (const bool cull : {true, false}) {
-      const GLsizei first = cull ? 0 : solid, count = cull ? solid : mesh.surface_count - solid;
-      if (count == 0) continue;
-      culling.set(cull);
-      glDrawElements(GL_TRIANGLES, count, GL_UNSIGNED_INT,
-                     reinterpret_cast<const void*>(static_cast<std::uintptr_t>(first) *
-                                                   sizeof(std::uint32_t)));
-    }
+    flat.use(instance, mesh);
+    if (solid > 0) culling.set(true);
+    flat.draw(colour, 0, solid);
+    culling.set(false);
+    flat.draw(colour, solid, mesh.surface_count - solid);
   }
   ++frame.stats->passes;
 }
@@ -94,19 +112,29 @@ void draw_lit(const Frame& frame, const Pass& pass, const Lighting& l) {
       common |= kFading;
     if (l.mask != nullptr) common |= kMasked;
   }
+  const FlatSurfaces flat(frame);
   GLuint program = 0;
   for (const InstanceSlot& instance : frame.state->instances) {
     if (!instance.alive) continue;
     const GpuMesh& mesh = frame.state->meshes[instance.mesh].gpu;
     const bool cull = culls_back_faces(frame, instance, mesh);
-    glBindVertexArray(mesh.shaded.id());
     GLuint of_instance = 0;
     for (const MaterialRange& range : mesh.materials) {
       const GpuMaterial& look = range.material;
+      culling.set(cull && range.solid);
+      if (l.light == nullptr && !look.base_texture) {
+        flat.use(instance, mesh);
+        const glm::vec3 emissive = l.emission ? look.emissive : glm::vec3(0.0f);
+        flat.draw(glm::vec4(look.base_colour * glm::vec3(l.ambient) + emissive, 1.0f), range.first,
+                  range.count);
+        program = of_instance = 0;
+        continue;
+      }
       unsigned variant = common;
       if (look.base_texture || (l.light != nullptr && look.normal_texture)) variant |= kTextured;
-      if (l.light != nullptr && mesh.smooth) variant |= kSmooth;
       if (l.light != nullptr && look.shininess > 0) variant |= kSpecular;
+      if (l.light != nullptr && !mesh.smooth && !look.normal_texture && look.shininess <= 0)
+        variant |= kFacets;
       const Result<GLuint> made = surface_program(frame.state->programs, variant);
       if (!made) {
         frame.state->failure = made.error();
@@ -135,6 +163,7 @@ void draw_lit(const Frame& frame, const Pass& pass, const Lighting& l) {
       }
       if (of_instance != program) {
         of_instance = program;
+        glBindVertexArray(mesh.shaded.id());
         set(program, "u_clip", frame.clip_of(instance));
         if (inside) set(program, "u_inside", glm::mat4(*inside * instance.to_scene));
         set(program, "u_model", glm::mat4(instance.to_scene));
@@ -156,7 +185,6 @@ void draw_lit(const Frame& frame, const Pass& pass, const Lighting& l) {
         glActiveTexture(GL_TEXTURE1);
         glBindTexture(GL_TEXTURE_2D, mesh.textures[*look.normal_texture].id());
       }
-      culling.set(cull && range.solid);
       glDrawArrays(GL_TRIANGLES, range.first, range.count);
     }
   }

@@ -220,8 +220,9 @@ void set_up_light(LightSetup& s, const Casters& casters, const Receivers& r, con
   const ScreenPoint<Bound> light_bound = project_bound(v.space, glm::abs(s.light));
   const EquationErrors errors =
       equation_errors(v.screen.bound, v.screen.bound, light_bound, r.view.width, r.view.height);
-  s.polygons.reserve(s.silhouette.size());
-  for (std::uint32_t i = 0; i < s.silhouette.size(); ++i) {
+  const std::size_t sides_in_front = looks_with_light(r.view, s.light) ? 0 : s.silhouette.size();
+  s.polygons.reserve(sides_in_front);
+  for (std::uint32_t i = 0; i < sides_in_front; ++i) {
     add_side(s, v, casters, r.view, errors, minus_light, light_bound, i);
   }
   s.sides = s.polygons.size();
@@ -252,14 +253,29 @@ class Exact final : public ExactDecisions {
                                 static_cast<std::size_t>(receivers_.view.width) +
                             static_cast<std::size_t>(column)];
     if (triangle == kNoTriangle) return false;
-    const Corners r = corners_of(*casters_.scene, triangle);
+    if (last_polygon_ != &p) {
+      last_polygon_ = &p;
+      in_plane_.clear();
+    }
+    for (const InPlane& known : in_plane_) {
+      if (known.triangle != triangle) continue;
+      ++close;
+      ++depths.exact;
+      ++depths.ties;
+      return known.in_front;
+    }
+    const Corners r = corners_of(*casters_.scene, triangle), c = corners(p);
     if (triangle != last_triangle_) {
       last_triangle_ = triangle;
       last_facing_ = facing(receivers_.view, r, light_.light, depths);
     }
     ++close;
-    return gnomon::in_front(receivers_.view, column, row, corners(p), p.facing, r, last_facing_,
-                            light_.light, depths);
+    const std::uint64_t ties = depths.ties;
+    const bool front = gnomon::in_front(receivers_.view, column, row, c, p.facing, r, last_facing_,
+                                        light_.light, depths);
+    if (depths.ties > ties && in_one_plane(c, r, light_.light))
+      in_plane_.push_back({triangle, front});
+    return front;
   }
 
   ExactStats spans, depths;
@@ -276,11 +292,19 @@ class Exact final : public ExactDecisions {
     return side_corners(casters_.scene->mesh.positions[e.a], casters_.scene->mesh.positions[e.b]);
   }
 
+  // A receiver in the polygon's plane: the answer is one for all pixels (docs/exactness.md).
+  struct InPlane {
+    std::uint32_t triangle;
+    bool in_front;
+  };
+
   const Casters& casters_;
   const Receivers& receivers_;
   const LightSetup& light_;
   std::uint32_t last_triangle_ = kNoTriangle;
   int last_facing_ = 0;
+  const Polygon* last_polygon_ = nullptr;
+  std::vector<InPlane> in_plane_;  // of last_polygon_
 };
 
 // Rows of the picture with everything that does not depend on the light.

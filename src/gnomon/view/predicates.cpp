@@ -106,6 +106,18 @@ bool in_front(const View& view, int column, int row, const Corners& c, int facin
   return s * facing_c * facing_r < 0;
 }
 
+bool in_one_plane(const Corners& c, const Corners& r, const Light& light) {
+  const auto in_plane = [&]<class T>(const Corner& corner, T) {
+    return det4<T>(lift<T>(r[0].at), lift<T>(r[1].at), lift<T>(r[2].at),
+                   corner_of<T>(corner, light, 0));
+  };
+  for (const Corner& corner : c) {
+    if (in_plane(corner, Approx(0.0)).certain()) return false;
+    if (in_plane(corner, Dyadic()).sign() != 0) return false;
+  }
+  return true;
+}
+
 bool covers(const View& view, int column, int row, const Corners& c, int facing_c,
             const Light& light, ExactStats& stats) {
   for (int k = 0; k < 3; ++k) {
@@ -134,6 +146,17 @@ bool seen_edge_on(const View& view, const Vec3& a, const Vec3& b, const Vec3& c)
   const Corners corners = triangle_corners(a, b, c);
   const Facing f{view, corners, Light(0.0)};
   return !f.operator()<Approx>(0, 0, 0).certain() && f.operator()<Dyadic>(0, 0, 0).sign() == 0;
+}
+
+bool looks_with_light(const View& view, const Light& light) {
+  if (!is_parallel(view) || light.w != 0) return false;
+  using D = Dyadic;
+  const Vec3 e(view.eye), l(light);
+  for (int k = 0; k < 3; ++k) {
+    const int i = (k + 1) % 3, j = (k + 2) % 3;
+    if ((D(e[i]) * D(l[j]) - D(e[j]) * D(l[i])).sign() != 0) return false;
+  }
+  return (D(e.x) * D(l.x) + D(e.y) * D(l.y) + D(e.z) * D(l.z)).sign() > 0;
 }
 
 bool seen_end_on(const View& view, const Vec3& p, const Vec3& r) {

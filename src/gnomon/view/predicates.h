@@ -41,6 +41,10 @@ int edge_side(const View& view, int column, int row, const Corner& p, const Corn
 bool in_front(const View& view, int column, int row, const Corners& c, int facing_c,
               const Corners& r, int facing_r, const Light& light, ExactStats& stats);
 
+// True if the polygon `c` lies in the plane of the triangle `r` (three vertices), exactly, before
+// any tie rule. Then in_front() says the same for all pixels that both cover.
+bool in_one_plane(const Corners& c, const Corners& r, const Light& light);
+
 // True if the pixel's centre is inside the polygon as seen from the eye: all three edge sides agree
 // with the facing.
 bool covers(const View& view, int column, int row, const Corners& c, int facing_c,
@@ -59,5 +63,10 @@ bool seen_end_on(const View& view, const Vec3& p, const Vec3& r);
 // rule. In a parallel view it then covers no pixel: its corners are collinear as seen from the eye,
 // all on one side of infinity.
 bool seen_edge_on(const View& view, const Vec3& a, const Vec3& b, const Vec3& c);
+
+// True if a parallel view looks exactly the way that the light's rays run: what the eye sees first,
+// the light meets first, and no side of a shadow volume is in front of any sample
+// (docs/exactness.md).
+bool looks_with_light(const View& view, const Light& light);
 
 }  // namespace gnomon

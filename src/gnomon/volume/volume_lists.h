@@ -47,9 +47,11 @@ enum ListKind : std::uint8_t {
   kSides,
   kLightCap,
   kDarkCap,
+  kGrazingSides,
   kSidesTurned,
   kLightCapTurned,
   kDarkCapTurned,
+  kGrazingSidesTurned,
   kListKinds
 };
 
@@ -80,13 +82,21 @@ struct EdgesOfParts {
 EdgesOfParts edges_of_parts(const EdgeTable& edges, const std::vector<std::uint32_t>& part_of,
                             std::size_t parts);
 
+// Edges of triangles whose plane holds the light, or nearly: vertices a < b, ascending. The sides
+// over them lie in that plane, and go to lists of their own.
+using GrazedEdges = std::vector<std::array<std::uint32_t, 2>>;
+
 // Appends the volume of triangles whose silhouette is known already (a lit region), or which is to
 // be sent in one piece. Sides are not turned then: loops run the way that they count.
+// `beyond`: per vertex of the mesh, 1 where it and all far ends lie beyond everything that
+// receives, as seen from the eye; triangles of sides that have no other corner are left out (form
+// triangles; for z-pass). Empty: none.
 void append_volume(VolumeLists& lists, const TriMesh& mesh,
                    std::span<const SilhouetteEdge> silhouette,
                    std::span<const std::uint32_t> triangles, std::span<const std::int8_t> sides,
                    bool one_point, Casting casting, SideForm form, std::uint32_t caster,
-                   LoopScratch& scratch);
+                   std::span<const std::uint8_t> beyond, LoopScratch& scratch,
+                   const GrazedEdges& grazed = {});
 
 // The silhouette of a part for a choice of its casting triangles, appended to `out`. `edges`: at
 // least all edges of the part. `group_of`: per triangle of the mesh; triangles of other groups than
@@ -98,6 +108,7 @@ void find_part_silhouette(Silhouette& out, const EdgeTable& table,
 
 // Appends the volume of one triangle: its prism, which is convex.
 void append_prism(VolumeLists& lists, const TriMesh& mesh, std::uint32_t triangle,
-                  std::int8_t light_side, bool one_point, std::uint32_t caster);
+                  std::int8_t light_side, bool one_point, std::uint32_t caster,
+                  std::span<const std::uint8_t> beyond, const GrazedEdges& grazed = {});
 
 }  // namespace gnomon

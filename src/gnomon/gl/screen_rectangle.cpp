@@ -1,0 +1,91 @@
+#include <gnomon/gl/screen_rectangle.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace gnomon::gl {
+namespace {
+
+constexpr double kSlack = 1.001;  // far above rounding; it only makes rectangles larger
+
+// First and last pixel of a coordinate -1 .. 1, and one more on each side.
+struct Span {
+  int first, end;
+};
+Span pixels(double lo, double hi, int size) {
+  const auto pixel = [&](double x) { return (std::clamp(x, -1.0, 1.0) + 1) / 2 * size; };
+  if (lo > 1 || hi < -1) return {0, 0};
+  return {std::max(0, static_cast<int>(std::floor(pixel(lo))) - 1),
+          std::min(size, static_cast<int>(std::ceil(pixel(hi))) + 1)};
+}
+
+}  // namespace
+
+std::array<Vec3, 8> corners_of(const SceneBox& b) {
+  std::array<Vec3, 8> out;
+  for (int i = 0; i < 8; ++i) {
+    out[i] = {(i & 1) != 0 ? b.hi.x : b.lo.x, (i & 2) != 0 ? b.hi.y : b.lo.y,
+              (i & 4) != 0 ? b.hi.z : b.lo.z};
+  }
+  return out;
+}
+
+std::optional<Rect> rectangle_round(const Camera& camera, std::span<const Vec3> points) {
+  if (points.empty()) return Rect{0, 0, 0, 0};
+  glm::dvec2 lo(0), hi(0);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vec4 p = camera.clip * point(points[i]);
+    if (!(p.w > 0)) return {};
+    const glm::dvec2 on_screen = glm::dvec2(p) / p.w;
+    lo = i == 0 ? on_screen : glm::min(lo, on_screen);
+    hi = i == 0 ? on_screen : glm::max(hi, on_screen);
+  }
+  const Span x = pixels(lo.x, hi.x, camera.width), y = pixels(lo.y, hi.y, camera.height);
+  if (x.first >= x.end || y.first >= y.end) return Rect{0, 0, 0, 0};
+  return Rect{x.first, y.first, x.end - x.first, y.end - y.first};
+}
+
+std::optional<Rect> shadow_rectangle(const Camera& camera, const Light& light,
+                                     const SceneBox& caster, const SceneBox& receivers) {
+  const bool lamp = light.w != 0;
+  const Vec3 at = lamp ? Vec3(light) / light.w : -glm::normalize(Vec3(light));
+  double reach = 0;
+  if (lamp) {
+    const double nearest = glm::distance(at, glm::clamp(at, caster.lo, caster.hi));
+    if (!(nearest > 0)) return {};
+    for (const Vec3& corner : corners_of(receivers))
+      reach = std::max(reach, glm::distance(at, corner) / nearest);
+    reach = std::max(1.0, reach * kSlack);
+  } else {
+    reach = kSlack *
+            glm::distance(glm::min(caster.lo, receivers.lo), glm::max(caster.hi, receivers.hi));
+  }
+  std::array<Vec3, 16> hull;
+  const std::array<Vec3, 8> corners = corners_of(caster);
+  for (int i = 0; i < 8; ++i) {
+    hull[i] = corners[i];
+    hull[8 + i] = lamp ? at + reach * (corners[i] - at) : corners[i] + reach * at;
+  }
+  return rectangle_round(camera, hull);
+}
+
+Rect common(const Rect& a, const Rect& b) {
+  const int x = std::max(a.x, b.x), y = std::max(a.y, b.y);
+  const int right = std::min(a.x + a.width, b.x + b.width);
+  const int top = std::min(a.y + a.height, b.y + b.height);
+  if (x >= right || y >= top) return {0, 0, 0, 0};
+  return {x, y, right - x, top - y};
+}
+
+Rect scaled(const Rect& r, double k) {
+  Rect out{static_cast<int>(std::floor(r.x * k)), static_cast<int>(std::floor(r.y * k)), 0, 0};
+  out.width = static_cast<int>(std::ceil((r.x + r.width) * k)) - out.x;
+  out.height = static_cast<int>(std::ceil((r.y + r.height) * k)) - out.y;
+  return out;
+}
+
+}  // namespace gnomon::gl
