@@ -138,5 +138,41 @@ TEST(Lights, ShineTheSameOnAScaledInstance) {
   EXPECT_LE(largest_difference(picture(scaled, camera, lights, {}), right), 1);
 }
 
+TEST(Lights, ManyDimOnesAddUpToABrightOne) {
+  const Scene scene = test::scene_of(boxes_on_ground());
+  Stage stage = stage_of(scene);
+  const View view = aerial(64, 48);
+  const Camera camera = camera_of(view, depth_range(scene, view, true));
+  constexpr int kLights = 200;
+  std::vector<LightSource> one{three_lamps()[0]}, many(kLights, one[0]);
+  for (LightSource& light : many) light.colour /= double(kLights);
+  for (const MaskIn mask : {MaskIn::stencil, MaskIn::alpha, MaskIn::screen}) {
+    Method m;
+    m.mask = mask;
+    EXPECT_LE(largest_difference(picture(stage.renderer, camera, many, m),
+                                 picture(stage.renderer, camera, one, m)),
+              2)
+        << name_of(mask);
+  }
+  Stage poor = stage_of(scene, Api::opengl, {"float-colour"});
+  const Result<Image> refused = poor.renderer.render(camera, many, {});
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("fewer lights"), std::string::npos);
+}
+
+// An elevation whose lower edge is below the ground.
+TEST(Lights, LampsShineInParallelViewsThatReachBelowTheGround) {
+  const Scene scene = test::scene_of(boxes_on_ground());
+  Stage stage = stage_of(scene);
+  const View view = orthographic_view({25, -35, 2}, {0, 0, 2}, {0, 0, 1}, 20, 160, 120);
+  const Camera camera = camera_of(view, depth_range(scene, view, false));
+  const Light lamp(12, -9, 15, 1);
+  FrameStats stats;
+  const Result<ShadowMask> mask = stage.renderer.mask(camera, lamp, {}, &stats);
+  ASSERT_TRUE(mask) << mask.error().message;
+  EXPECT_EQ(stats.method.reach, Reach::bounded);
+  EXPECT_LE(compare(mask.value(), exact_mask(scene, lamp, view)).pixels, 19);
+}
+
 }  // namespace
 }  // namespace gnomon::gl

@@ -105,6 +105,11 @@ std::optional<Bound> bounding_plane(const Frame& frame, const Light& light) {
     step = std::max(step, 0x1p-23 / glm::length(slope));
   }
   const double margin = glm::distance(lo, hi) * kBoundMargin + kBoundSteps * step;
+  const auto near_low = [&](int axis, double sign) {
+    double low = kInf;
+    for (const Vec3& p : camera.near_rectangle) low = std::min(low, sign * p[axis]);
+    return low;
+  };
   std::optional<Bound> best;
   double most = 0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -113,7 +118,7 @@ std::optional<Bound> bounding_plane(const Frame& frame, const Light& light) {
       h[axis] = sign;
       const double low =
           sign > 0 ? std::min(lo[axis], caster_lo[axis]) : -std::max(hi[axis], caster_hi[axis]);
-      h.w = -(low - margin);
+      h.w = -(std::min(low, near_low(axis, sign)) - margin);
       const double top = sign > 0 ? caster_hi[axis] : -caster_lo[axis];  // of casters
       const double side = glm::dot(h, light);
       // A point light keeps its distance from the highest caster, a sun an angle from the plane.

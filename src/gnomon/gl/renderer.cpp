@@ -173,6 +173,19 @@ Result<bool> add_lights(const Frame& whole, const Target& picture,
   return true;
 }
 
+// Float bits of a picture that so many lights are added in; 0: eight bits a channel, which round
+// each of them by half a step. Half floats round to a 4096th of the sum. Error: there are no floats.
+Result<int> bits_for_lights(const Capabilities& c, std::size_t lights) {
+  constexpr std::size_t kInBytes = 4, kInHalfFloats = 32, kInBytesAtMost = 16;
+  if (lights <= kInBytes) return 0;
+  if (lights > kInHalfFloats && c.float_blend) return 32;
+  if (c.float_colour) return 16;
+  if (lights <= kInBytesAtMost) return 0;
+  return Error{
+      "More than 16 lights are lost in the rounding of 8 bits a channel, and this OpenGL has no "
+      "float colours: take fewer lights."};
+}
+
 // One light, as the first paper's Table 1 counts passes and rectangles.
 Result<bool> draw_paper(const Frame& frame, const Target& picture, const LightSource& light,
                         const LightPlan& plan, const FrameOptions& options) {
@@ -350,8 +363,15 @@ Result<FrameStats> Renderer::draw(const Camera& camera, std::span<const LightSou
     plans.push_back(std::move(plan).value());
   }
   if (!plans.empty()) counted.method = plans.front().method;
+  const Result<int> bits = bits_for_lights(state_->capabilities, lights.size());
+  if (!bits) return bits.error();
+  wanted.float_bits = bits.value();
   for (const LightPlan& plan : plans)
     wanted.float_bits = std::max(wanted.float_bits, plan.method.float_bits);
+  for (LightPlan& plan : plans) {  // masks live in the picture's alpha, and count as it does
+    if (plan.method.mask != MaskIn::stencil && plan.method.mask_scale == 1)
+      plan.method.float_bits = wanted.float_bits;
+  }
   const TargetFormat format = format_of(camera, wanted, 1.0);
   if (!state_->picture || state_->picture->format != format) {
     Result<Target> made = make_target(format);
