@@ -126,12 +126,8 @@ void write_picture(const Options& o, const std::string& name, Way& way, const gl
   const double phase = double(slowest - way.seconds.begin()) / double(way.seconds.size());
   const gl::Image image =
       take(way.renderer.render(camera, lights_of(lamps(way.lights, phase)), way.options));
-  Picture picture;
-  picture.width = image.width;
-  picture.height = image.height;
-  for (std::size_t i = 0; i < image.rgba.size(); i += 4)
-    picture.pixels.push_back({image.rgba[i], image.rgba[i + 1], image.rgba[i + 2]});
-  take(write_png(std::filesystem::path(o.pictures) / (name + ".png"), picture, o.common.threads));
+  take(write_png(std::filesystem::path(o.pictures) / (name + ".png"),
+                 picture_of_rgba(image.width, image.height, image.rgba), o.common.threads));
 }
 
 // --- Table 2 of Roettger, Irion and Ertl, Shadow Volumes Revisited, 2002 ----------------------

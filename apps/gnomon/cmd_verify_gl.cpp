@@ -40,7 +40,8 @@ struct Row {
   gl::MaskBound bound;
   int pictures = 0, broken = 0;
   MaskDifference difference;
-  double most = 0;  // share of a picture that differs
+  double most = 0;             // share of a picture that differs
+  std::uint64_t on_edges = 0;  // of pictures of which more differ than the share
   std::uint64_t other_than_stencil = 0;
 };
 
@@ -71,24 +72,34 @@ std::string words_of(const gl::Method& m) {
 }
 
 // One picture's answer, into its row.
-void note(Totals& totals, const std::string& where, const gl::Method& m, const MaskDifference& d,
-          std::uint64_t other) {
+void note(Totals& totals, const std::string& where, const gl::Method& m, const ExactAnswers& exact,
+          const ShadowMask& drawn, const MaskDifference& d, std::uint64_t other) {
   const gl::MaskBound bound = gl::bound_of(m);
   Row& row = totals.rows[std::string(bound.of)];
   row.bound = bound;
   ++row.pictures;
   row.difference += d;
   row.other_than_stencil += other;
-  const double share = double(d.differ) / double(d.samples);
+  const double samples = double(d.samples), share = double(d.differ) / samples;
   row.most = std::max(row.most, share);
-  const bool broken = share > bound.share || (d.unexplained > 0 && !bound.unexplained) ||
-                      (other > 0 && bound.same_as_stencil);
+  std::uint64_t on_edges = 0;
+  bool too_many = share > bound.share;
+  if (too_many && bound.near_edges > 0) {
+    too_many = double(d.differ) > bound.near_edges * double(samples_near_edges(exact, bound.edge));
+  } else if (too_many) {
+    on_edges = differing_on_edges(exact, drawn);
+    too_many = double(d.differ - on_edges) / samples > bound.share;
+  }
+  row.on_edges += on_edges;
+  const bool broken =
+      too_many || (d.unexplained > 0 && !bound.unexplained) || (other > 0 && bound.same_as_stencil);
   if (!broken) return;
   ++row.broken;
   std::string text = fmt::format(
-      "{}: {}: {} of {} differ, {} at an edge, {} in depth, {} unexplained; {} other "
+      "{}: {}: {} of {} differ, {} at an edge, {} on it, {} in depth, {} unexplained; {} other "
       "than the stencil",
-      where, gl::describe(m), d.differ, d.samples, d.at_edge, d.in_depth, d.unexplained, other);
+      where, words_of(m), d.differ, d.samples, d.at_edge, on_edges, d.in_depth, d.unexplained,
+      other);
   for (const MaskDifference::Unexplained& u : d.first_unexplained) {
     text += fmt::format("; pixel {} of triangle {}, exact count {}", u.pixel, u.triangle, u.count);
     text += u.times > 0 ? fmt::format(", {} times the rounding", u.times) : ", no rounding";
@@ -140,7 +151,7 @@ void verify_light(const Stage& stage, const std::string& where, const Cameras& c
     ++totals.combinations;
     const Geometry same{&camera, m.reach, m.primitives};
     if (!stencil.contains(same) && !gl::bound_of(m).same_as_stencil) {
-      note(totals, where, m, compare(m, drawn.value()), 0);
+      note(totals, where, m, exact, drawn.value(), compare(m, drawn.value()), 0);
       continue;
     }
     if (!stencil.contains(same)) {
@@ -153,13 +164,14 @@ void verify_light(const Stage& stage, const std::string& where, const Cameras& c
       // Where the usual way is refused, the first that is not stands for it.
       const ShadowMask& first = usual ? usual.value() : drawn.value();
       const MaskDifference d = compare(base, first);
-      if (usual) note(totals, where, base, d, 0);
+      if (usual) note(totals, where, base, exact, first, d, 0);
       stencil[same] = {first, d};
     }
     const auto& [mask, difference] = stencil[same];
     const std::uint64_t other = differing_pixels(exact, drawn.value(), mask);
     const bool equal = other == 0 && gl::bound_of(m).same_as_stencil;
-    note(totals, where, m, equal ? difference : compare(m, drawn.value()), other);
+    note(totals, where, m, exact, drawn.value(), equal ? difference : compare(m, drawn.value()),
+         other);
   }
 }
 
@@ -184,15 +196,17 @@ void print_table(const std::string& model, std::size_t triangles, const Totals& 
   fmt::print(
       "| model | triangles | methods | pictures | samples | differ | most in a picture | at an "
       "edge "
-      "| in depth | unexplained | other than the stencil | edge-on | of these differ | bounds "
+      "| on it | in depth | unexplained | other than the stencil | edge-on | of these differ | "
+      "bounds "
       "broken "
       "|\n|---|--:|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n");
   for (const auto& [name, row] : totals.rows) {
     const MaskDifference& d = row.difference;
-    fmt::print("| {} | {} | {} | {} | {} | {} | {:.3f} % | {} | {} | {} | {} | {} | {} | {} |\n",
-               model, triangles, name, row.pictures, d.samples, d.differ, 100 * row.most, d.at_edge,
-               d.in_depth, d.unexplained, row.other_than_stencil, d.edge_on, d.edge_on_differ,
-               row.broken);
+    fmt::print(
+        "| {} | {} | {} | {} | {} | {} | {:.3f} % | {} | {} | {} | {} | {} | {} | {} | {} |\n",
+        model, triangles, name, row.pictures, d.samples, d.differ, 100 * row.most, d.at_edge,
+        row.on_edges, d.in_depth, d.unexplained, row.other_than_stencil, d.edge_on,
+        d.edge_on_differ, row.broken);
   }
 }
 

@@ -184,6 +184,38 @@ TEST(NearPlane, SidesBeforeItAreNotCountedWithDepthClamp) {
   }
 }
 
+// A plate's shadow whose edges run through pixel centres in plan: whole rows are ties, on whichever
+// side they are drawn. A quarter of a pixel aside there are none.
+TEST(Edges, SamplesOnThemAreToldApart) {
+  for (const double aside : {0.0, 0.25}) {
+    TriMesh m;
+    test::add_ground(m, 40);
+    test::add_quad(m, {-9.5 + aside, -8.5 + aside, 4}, {8.5 + aside, -8.5 + aside, 4},
+                   {8.5 + aside, 9.5 + aside, 4}, {-9.5 + aside, 9.5 + aside, 4});
+    const Scene scene = test::scene_of(std::move(m));
+    const Casters casters = prepare_casters(scene);
+    const View view = plan_view({-32, -32, 32, 32}, 1, 0);
+    const ExactView samples = exact_view(scene, casters, view);
+    const ExactAnswers exact = exact_answers(samples, Light(1, 1, 1, 0));
+    ShadowMask other = exact.mask;  // every row and column of the edges the other way
+    std::uint64_t flipped = 0;
+    for (std::size_t k = 65; k + 65 < other.state.size(); ++k) {
+      const auto& s = exact.mask.state;
+      if (s[k] != s[k + 1] || s[k] != s[k + 64]) {
+        other.state[k] = s[k] == ShadowMask::kLit ? ShadowMask::kShadow : ShadowMask::kLit;
+        ++flipped;
+      }
+    }
+    ASSERT_GT(flipped, 20u);
+    EXPECT_EQ(differing_on_edges(exact, other) > 0, aside == 0);
+    Stage stage = stage_of(scene);
+    const Camera camera = camera_of(view, depth_range(scene, view, false));
+    const ShadowMask drawn = stage.renderer.mask(camera, Light(1, 1, 1, 0), {}).value();
+    EXPECT_EQ(differing_on_edges(exact, drawn), differing_pixels(exact, drawn, exact.mask));
+    EXPECT_TRUE(aside == 0 || differing_pixels(exact, drawn, exact.mask) == 0);
+  }
+}
+
 // A low sun over rolling ground, whose sides make small angles with what they fall on: where it
 // grazes one small triangle, the shadows elsewhere must stay where they are.
 TEST(Grazing, MovesNoSidesButThoseOfWhatIsGrazed) {
@@ -215,6 +247,27 @@ TEST(Grazing, MovesNoSidesButThoseOfWhatIsGrazed) {
         compare(stage.renderer.mask(camera, sun, method).value(), exact_mask(scene, sun, view))
             .pixels,
         3);
+  }
+}
+
+// A wall that leans back a little under an eave, which shades it: the side over the edge between
+// them runs just behind the wall.
+TEST(Grazing, WallThatLeansBackUnderAnEaveIsInItsShadow) {
+  for (const int bits : {11, 12, 13, 14, 15}) {
+    const double lean = std::exp2(-bits - 0.5);  // sine of the angle to the light
+    TriMesh m;
+    test::add_ground(m, 30);
+    test::add_quad(m, {0, -5, 0}, {0, 5, 0}, {-8 * lean, 5, 8}, {-8 * lean, -5, 8});
+    test::add_quad(m, {-8 * lean, -5, 8}, {-8 * lean, 5, 8}, {2, 5, 9}, {2, -5, 9});
+    const Scene scene = test::scene_of(std::move(m));
+    const View view = perspective_view({20, -9, 5}, {0, 0, 4}, {0, 0, 1}, 0.8, 160, 120);
+    Stage stage = stage_of(scene);
+    const Camera camera = camera_of(view, {0.25, 200});
+    const Light sun(0, 0, 1, 0);
+    EXPECT_LE(
+        compare(stage.renderer.mask(camera, sun, {}).value(), exact_mask(scene, sun, view)).pixels,
+        8)
+        << bits;
   }
 }
 

@@ -1,6 +1,7 @@
 #include <gnomon/gl/caster_volumes.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include <glm/geometric.hpp>
 
@@ -130,7 +131,9 @@ std::vector<glm::vec4> extrude(const TriMesh& mesh, const glm::mat4& project) {
   return out;
 }
 
-bool grazes(const TriMesh& mesh, std::uint32_t triangle, const Light& light) {
+// The sine of the angle between the triangle's plane and the light, seen from the corner where it
+// is least.
+double sine_to_light(const TriMesh& mesh, std::uint32_t triangle, const Light& light) {
   const Triangle& t = mesh.triangles[triangle];
   const Vec3 &a = mesh.positions[t[0]], &b = mesh.positions[t[1]], &c = mesh.positions[t[2]];
   const Vec3 l(light), n = glm::cross(b - a, c - a);
@@ -139,8 +142,8 @@ bool grazes(const TriMesh& mesh, std::uint32_t triangle, const Light& light) {
     const Vec3 d = l - *p * light.w;
     longest = std::max(longest, glm::dot(d, d));
   }
-  const double height = glm::dot(n, l - a * light.w);
-  return height * height <= kGrazing * kGrazing * glm::dot(n, n) * longest;
+  const double below = std::sqrt(glm::dot(n, n) * longest);
+  return below > 0 ? std::fabs(glm::dot(n, l - a * light.w)) / below : 0;
 }
 
 }  // namespace
@@ -153,8 +156,12 @@ bool update_sides(CasterVolumes& v, const GpuMesh& m, std::uint64_t mesh_version
     v.light_side = light_sides(m.mesh, light);
     v.grazed = false;
     v.grazed_edges.clear();
+    v.nearly_grazed.clear();
     for (std::uint32_t t = 0; t < m.mesh.triangles.size(); ++t) {
-      if (!grazes(m.mesh, t, light)) continue;
+      const double sine = sine_to_light(m.mesh, t, light);
+      if (sine <= kNearlyGrazing && m.casts[t] != 0 && m.receives[t] != 0)
+        v.nearly_grazed.push_back(t);
+      if (sine > kGrazing) continue;
       v.grazed |= m.receives[t] != 0;
       const Triangle& corners = m.mesh.triangles[t];
       for (int k = 0; k < 3; ++k) {

@@ -24,9 +24,11 @@ namespace gnomon::gl {
 inline constexpr int kWrapMiddle = 32, kWrapLayers = 255 - kWrapMiddle;
 
 // The light grazes a triangle where the sine of the angle between its plane and the light, seen
-// from the corner where it is least, is no more than this. There sides start that lie in the plane
-// of what they fall on, to the precision of a depth buffer (docs/renderer.md).
-inline constexpr double kGrazing = 0x1p-14;
+// from the corner where it is least, is no more than this: 16 pixels below its edge the side is a
+// 256th of a pixel off the triangle, by which corners are rounded (docs/renderer-limits.md).
+inline constexpr double kGrazing = 0x1p-12;
+// And nearly here: so it is a pixel below its edge.
+inline constexpr double kNearlyGrazing = 0x1p-8;
 
 // How one part is drawn, for this light and camera.
 struct PartPlan {
@@ -52,11 +54,12 @@ struct CasterVolumes {
   std::vector<std::uint8_t> region_z_fail;  // per region
 
   std::vector<std::int8_t> light_side;  // per triangle
-  bool grazed = false;                // the plane of some receiving triangle nearly holds the light
-  GrazedEdges grazed_edges;           // of all triangles that the light grazes
-  std::vector<std::uint8_t> casting;  // per triangle: it counts
-  LitRegions regions;                 // of parts by region
-  int layers = 0;                     // no ray from the light crosses more casting triangles
+  bool grazed = false;       // the plane of some receiving triangle nearly holds the light
+  GrazedEdges grazed_edges;  // of all triangles that the light grazes
+  std::vector<std::uint32_t> nearly_grazed;  // triangles that cast and receive
+  std::vector<std::uint8_t> casting;         // per triangle: it counts
+  LitRegions regions;                        // of parts by region
+  int layers = 0;                            // no ray from the light crosses more casting triangles
 
   VolumeLists lists;                                   // z-fail volumes first
   std::size_t z_fail_volumes = 0;                      // of lists.volumes, the first ones

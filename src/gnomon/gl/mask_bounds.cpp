@@ -15,6 +15,8 @@ constexpr double kSteps = 8 + 8;
 constexpr double kCorner = (8.0 + 2.0) / 256;
 constexpr double kShare = 0.001;
 constexpr double kLowShare = 0.1;
+// An answer from another place is right half of the time where both states are as frequent.
+constexpr double kLowNearEdges = 0.5;
 
 }  // namespace
 
@@ -29,6 +31,7 @@ MaskBound bound_of(const Method& m) {
     b.edge = static_cast<int>(std::ceil(1.5 / m.mask_scale));
     b.steps = b.pixels = 0;
     b.share = kLowShare;
+    b.near_edges = kLowNearEdges;
     b.unexplained = true;
     b.why =
         "one answer stands for a square of pixels, and near the rim of a surface for another "

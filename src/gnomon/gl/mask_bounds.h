@@ -13,10 +13,12 @@ namespace gnomon::gl {
 // plus what their slopes make of `pixels` (rounding of depths), which can have been counted on
 // the wrong side of it.
 struct MaskBound {
-  std::string_view of;  // the methods that it is for
-  double share = 0;     // of the picture's samples, may differ
-  int edge = 1;         // pixels
-  double steps = 0;     // of a depth buffer of 24 bits
+  std::string_view of;    // the methods that it is for
+  double share = 0;       // of the picture's samples, may differ, those on an edge to a 256th of a
+                          // pixel aside
+  double near_edges = 0;  // if more: of the samples with an edge within `edge` pixels, may differ
+  int edge = 1;           // pixels
+  double steps = 0;       // of a depth buffer of 24 bits
   double pixels = 0;
   bool unexplained = false;      // differences without such a reason are allowed, within the share
   bool same_as_stencil = false;  // not one pixel may differ from the stencil's mask

@@ -46,19 +46,40 @@ std::uint8_t states_near(const ExactAnswers& a, int column, int row, int pixels)
   return bits;
 }
 
+// States of the samples of a view as they are, seen exactly.
+std::uint8_t states_of(const ExactAnswers& a, const View& view) {
+  const Receivers samples = visible_surfaces(*a.view->scene, view);
+  std::uint8_t bits = 0;
+  for (const std::uint8_t s : cast_shadows(*a.view->casters, samples, a.light).state)
+    bits |= bit_of(s);
+  return bits;
+}
+
 std::uint8_t states_close(const ExactAnswers& a, std::size_t pixel) {
   const auto found = a.looked_at.find(pixel);
   if (found != a.looked_at.end()) return found->second;
   if (a.looked_at.size() >= kLooks) return 0;
   const View& v = a.view->samples.view;
   const int column = static_cast<int>(pixel) % v.width, row = static_cast<int>(pixel) / v.width;
-  const View close = part_of(v, column - 0.5, row - 0.5, 2, 2, kClose);
-  const Receivers samples = visible_surfaces(*a.view->scene, close);
-  std::uint8_t bits = 0;
-  for (const std::uint8_t s : cast_shadows(*a.view->casters, samples, a.light).state)
-    bits |= bit_of(s);
+  const std::uint8_t bits = states_of(a, part_of(v, column - 0.5, row - 0.5, 2, 2, kClose));
   a.looked_at[pixel] = bits;
   return bits;
+}
+
+std::uint8_t states_at_edge(const ExactAnswers& a, std::size_t pixel) {
+  const auto found = a.looked_at_edge.find(pixel);
+  if (found != a.looked_at_edge.end()) return found->second;
+  if (a.looked_at_edge.size() >= kEdgeLooks) return 0;
+  const View& v = a.view->samples.view;
+  const int column = static_cast<int>(pixel) % v.width, row = static_cast<int>(pixel) / v.width;
+  // Three by three samples, kSubpixel apart, round the pixel's centre.
+  const double from = 0.5 - 1.5 * kSubpixel;
+  View close = v;
+  close.origin += (column + from) * v.right + (row + from) * v.down;
+  close.right *= kSubpixel;
+  close.down *= kSubpixel;
+  close.width = close.height = 3;
+  return a.looked_at_edge[pixel] = states_of(a, close);
 }
 
 // The plane through three homogeneous points: plane . x = |a; b; c; x|.
@@ -288,6 +309,27 @@ MaskDifference compare_masks(const ExactAnswers& exact, const ShadowMask& drawn,
     d.first_unexplained.push_back(u);
   }
   return d;
+}
+
+std::uint64_t differing_on_edges(const ExactAnswers& exact, const ShadowMask& drawn) {
+  std::uint64_t n = 0;
+  for (std::size_t k = 0; k < drawn.state.size(); ++k) {
+    if (drawn.state[k] == exact.mask.state[k] || exact.edge_on[k] != 0) continue;
+    n += (states_at_edge(exact, k) & bit_of(drawn.state[k])) != 0 ? 1 : 0;
+  }
+  return n;
+}
+
+std::uint64_t samples_near_edges(const ExactAnswers& exact, int pixels) {
+  const View& v = exact.view->samples.view;
+  std::uint64_t n = 0;
+  for (std::size_t k = 0; k < exact.mask.state.size(); ++k) {
+    if (exact.edge_on[k] != 0) continue;
+    const int column = static_cast<int>(k) % v.width, row = static_cast<int>(k) / v.width;
+    const std::uint8_t bits = states_near(exact, column, row, pixels);
+    n += (bits & (bits - 1)) != 0 ? 1 : 0;
+  }
+  return n;
 }
 
 std::uint64_t differing_pixels(const ExactAnswers& exact, const ShadowMask& a,

@@ -40,6 +40,8 @@ struct ExactAnswers {
   // Per pixel that was looked at more closely: which states occur within a pixel of its centre (bit
   // 0 lit, 1 shadow, 2 no sample). Not for several threads.
   mutable std::map<std::size_t, std::uint8_t> looked_at;
+  // The same within kSubpixel of it.
+  mutable std::map<std::size_t, std::uint8_t> looked_at_edge;
 };
 ExactAnswers exact_answers(const ExactView& view, const Light& light, int threads = 0);
 
@@ -92,6 +94,20 @@ struct MaskDifference {
 // Precondition: `drawn` has the view's size.
 MaskDifference compare_masks(const ExactAnswers& exact, const ShadowMask& drawn,
                              const DepthBuffer& depth, const Rounding& rounding);
+
+// To the side or up or down, in pixels: a sample as near to an edge as that lies on it for a
+// renderer that rounds corners to eight bits of a pixel, as OpenGL's do: half a step of the sides'
+// corners and half a step of the surface's.
+inline constexpr double kSubpixel = 0x1p-8;
+
+// Of the samples that MaskDifference::differ counts, those that lie on an edge to kSubpixel: the
+// state as drawn is exact so near to them. Each costs as much as a small picture: of one
+// ExactAnswers at most kEdgeLooks are looked at, the others not counted.
+inline constexpr std::size_t kEdgeLooks = 1024;
+std::uint64_t differing_on_edges(const ExactAnswers& exact, const ShadowMask& drawn);
+
+// Samples, edge-on ones aside, that have another exact state within `pixels` of them.
+std::uint64_t samples_near_edges(const ExactAnswers& exact, int pixels);
 
 // Pixels whose states differ, but for those that are edge-on to the light. Precondition: the view's
 // size.
