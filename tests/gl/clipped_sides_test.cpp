@@ -145,5 +145,38 @@ TEST(ClippedSides, AreTheSameForZPassAndZFailWithDepthClamp) {
   }
 }
 
+// A wall on the lowest ground: z-pass does not draw the side below its foot, so z-fail must not
+// lose it where its upper edge is rounded before the ground.
+TEST(SidesBeyondReceivers, AreBehindEverythingWhateverTheRounding) {
+  TriMesh m;
+  m.positions = {{-60, -60, 0},
+                 {60, 60, 0},
+                 {-60, 60, 0},
+                 {-23.02955896234548, -27.799822489242601, 0},
+                 {-25.834387811678855, -18.23523866423173, 0},
+                 {-25.834387811678855, -18.23523866423173, 7.1444606251473441}};
+  m.triangles = {{0, 1, 2}, {3, 4, 5}};
+  const Scene scene = test::scene_of(std::move(m));
+  View view;
+  view.eye = direction(Vec3(0.624108456329874, 0.751274370102467, 0.21465194050994083));
+  view.origin = point(Vec3(8.4621958727306712, -13.8219829898066, 13.993434730725058));
+  view.right = direction(Vec3(-0.061226068224171135, 0.050862519003973566, 0));
+  view.down = direction(Vec3(0.010917738403426669, 0.013142294354112362, -0.077741304059583655));
+  view.width = 480;
+  view.height = 360;
+  const Camera camera = camera_of(view, {-88.200868027094771, 84.00275674390744});
+  const Light sun(0.41700998075469364, 0.29799490408731444, 0.59640440692594365, 0);
+  Stage stage = stage_of(scene);
+  for (const MaskIn in : {MaskIn::stencil, MaskIn::alpha}) {
+    Method method;
+    method.mask = in;
+    method.reach = Reach::bounded;
+    const ShadowMask z_pass = stage.renderer.mask(camera, sun, method).value();
+    method.count = Count::z_fail;
+    EXPECT_EQ(count_different(stage.renderer.mask(camera, sun, method).value(), z_pass), 0)
+        << name_of(in);
+  }
+}
+
 }  // namespace
 }  // namespace gnomon::gl

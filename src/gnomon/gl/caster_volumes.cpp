@@ -43,12 +43,6 @@ struct Builder {
     return n;
   }
 
-  // z-fail counts what lies behind the receivers, and needs it all.
-  std::span<const std::uint8_t> beyond(bool z_fail) const {
-    if (z_fail) return {};
-    return beyond_receivers;
-  }
-
   void append_group(std::uint32_t p, std::span<const std::uint32_t> group_of, std::uint32_t group,
                     std::span<const std::uint32_t> triangles, std::uint32_t layers) {
     const std::span<const std::uint32_t> edges(m.part_edges.edge.data() + m.part_edges.first[p],
@@ -57,7 +51,7 @@ struct Builder {
     find_part_silhouette(silhouette, m.edges, edges, group_of, group, v.light_side,
                          v.plan[p].casting);
     append_volume(v.lists, m.mesh, silhouette, triangles, v.light_side, one_point,
-                  v.plan[p].casting, form, p, beyond(v.plan[p].z_fail), scratch, v.grazed_edges);
+                  v.plan[p].casting, form, p, beyond_receivers, scratch, v.grazed_edges);
     note(false, layers);
   }
 
@@ -68,7 +62,7 @@ struct Builder {
     if (plan.by_polygon) {
       for (const std::uint32_t t : part.triangles) {
         if (!casts(plan.casting, v.light_side[t])) continue;
-        append_prism(v.lists, m.mesh, t, v.light_side[t], one_point, p, beyond(plan.z_fail),
+        append_prism(v.lists, m.mesh, t, v.light_side[t], one_point, p, beyond_receivers,
                      v.grazed_edges);
         note(true, 1);
       }
@@ -112,7 +106,7 @@ struct Builder {
         continue;
       }
       append_volume(v.lists, m.mesh, v.regions.silhouette_of(r), triangles, v.light_side, one_point,
-                    Casting::all_triangles, form, m.parts.part_of[triangles[0]], beyond(z_fail),
+                    Casting::all_triangles, form, m.parts.part_of[triangles[0]], beyond_receivers,
                     scratch, v.grazed_edges);
       note(false, static_cast<std::uint32_t>(triangles.size()));
     }

@@ -79,7 +79,7 @@ bool update_sides(CasterVolumes& volumes, const GpuMesh& mesh, std::uint64_t mes
 // Brings lists and buffers up to date. `near`: in the mesh's coordinates, for parts by region.
 // `project`: a vertex (x, y, z, 1) to the point behind it. `receivers`: a plane with the receivers
 // and the near rectangle on its side >= 0, all points behind vertices on the other; sides beyond it
-// are left out where z-pass counts. (0, 0, 0, 1): none is. `most_layers`: volumes of more triangles
+// are of the dark cap. (0, 0, 0, 1): none is. `most_layers`: volumes of more triangles
 // than that are split; 0: none is. True if they were not.
 bool update_lists(CasterVolumes& volumes, const GpuMesh& mesh, const Method& method,
                   const NearClip& near, const glm::mat4& project, const Vec4& receivers,

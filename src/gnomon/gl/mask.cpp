@@ -109,8 +109,18 @@ void draw_caps(const Frame& frame, const std::array<IndexRange, kListKinds>& ran
 void draw_faces(const Frame& frame, const Method& m, const Batch& b, const Pass& pass,
                 bool turned) {
   draw_sides(frame, m, b.ranges, turned, b.of->offset);
-  if (b.z_fail) return draw_caps(frame, b.ranges, turned);
   const IndexRange& caps = b.ranges[turned ? kLightCapTurned : kLightCap];
+  if (b.z_fail) {
+    draw_range(frame, caps);
+    const IndexRange& dark = b.ranges[turned ? kDarkCapTurned : kDarkCap];
+    if (dark.count == 0) return;
+    // It lies behind everything, whatever the rounding of depths: z-pass does not draw it.
+    Pass behind = pass;
+    behind.depth_func = pass.stencil_test ? GL_NEVER : GL_ALWAYS;
+    apply(behind, frame);
+    draw_range(frame, dark);
+    return apply(pass, frame);
+  }
   if (b.of->plan->caps_in_front == CapsInFront::all) return draw_range(frame, caps);
   if (b.of->plan->caps_in_front == CapsInFront::none || caps.count == 0) return;
   if (pass.cull == GL_BACK) return;

@@ -29,8 +29,11 @@ void push_side(VolumeLists& lists, std::uint32_t a, std::uint32_t b, bool turned
   } else {
     const bool no_a = !beyond.empty() && beyond[a] != 0;
     const bool no_b = !beyond.empty() && beyond[b] != 0;
-    if (!no_a) list.insert(list.end(), {far_vertex(a), near_vertex(a), far_vertex(b)});
-    if (!no_a || !no_b) list.insert(list.end(), {far_vertex(b), near_vertex(a), near_vertex(b)});
+    std::vector<std::uint32_t>& behind = lists.lists[turned ? kDarkCapTurned : kDarkCap];
+    std::vector<std::uint32_t>& lower = no_a ? behind : list;
+    std::vector<std::uint32_t>& upper = no_a && no_b ? behind : list;
+    lower.insert(lower.end(), {far_vertex(a), near_vertex(a), far_vertex(b)});
+    upper.insert(upper.end(), {far_vertex(b), near_vertex(a), near_vertex(b)});
   }
 }
 

@@ -89,8 +89,8 @@ using GrazedEdges = std::vector<std::array<std::uint32_t, 2>>;
 // Appends the volume of triangles whose silhouette is known already (a lit region), or which is to
 // be sent in one piece. Sides are not turned then: loops run the way that they count.
 // `beyond`: per vertex of the mesh, 1 where it and all far ends lie beyond everything that
-// receives, as seen from the eye; triangles of sides that have no other corner are left out (form
-// triangles; for z-pass). Empty: none.
+// receives, as seen from the eye; triangles of sides that have no other corner go to the dark cap
+// (form triangles): z-fail counts them behind everything, z-pass never. Empty: none.
 void append_volume(VolumeLists& lists, const TriMesh& mesh,
                    std::span<const SilhouetteEdge> silhouette,
                    std::span<const std::uint32_t> triangles, std::span<const std::int8_t> sides,
