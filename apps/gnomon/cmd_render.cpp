@@ -51,7 +51,77 @@ Picture picture_of(const ShadowMask& mask) {
   return out;
 }
 
+// Options that would have no effect.
+void check_options(const Options& o) {
+  const auto shows = [&](const char* what) {
+    return std::find(o.show.begin(), o.show.end(), what) != o.show.end();
+  };
+  if (shows("mask") && (o.show.size() > 1 || !o.observer.empty())) {
+    throw Failure(
+        "--show mask is the first light's mask alone: leave out what else is to be shown, and "
+        "--observer");
+  }
+  if (shows("clip-space") && !o.observer.empty())
+    throw Failure("--show clip-space has an observer of its own: leave out --observer");
+  if (shows("clip-space") && o.frame.method.count != gl::Count::automatic &&
+      o.frame.method.count != gl::Count::near_cap) {
+    throw Failure(
+        "--show clip-space counts from the near plane: leave out --count, or take near-cap");
+  }
+  if (shows("clipped") && o.observer.empty())
+    throw Failure("--show clipped is what an observer sees: add --observer X,Y,Z");
+  if (!o.observer_target.empty() && o.observer.empty())
+    throw Failure("--observer-target is where an observer looks: add --observer X,Y,Z");
+  if (std::filesystem::path(o.output).extension() != ".png")
+    throw Failure(
+        fmt::format("pictures are written as PNG: let the file '{}' end in .png", o.output));
+}
+
+// What makes a picture all dark, or empty.
+void warn_of_nothing(Warnings& to, const gl::FrameStats& stats, const ShadowMask& mask) {
+  const auto none = [&](std::uint8_t state) {
+    return std::find(mask.state.begin(), mask.state.end(), state) == mask.state.end();
+  };
+  if (none(ShadowMask::kLit) && none(ShadowMask::kShadow)) {
+    warn(to, "nothing of the model is in the picture; see --eye, --target and --near", "");
+  } else if (none(ShadowMask::kLit)) {
+    warn(to,
+         "the first light reaches nothing in the picture: is it inside a body or below the ground?",
+         "");
+  }
+  if (stats.moved_lights > 0) {
+    warn(to,
+         "a lamp touches the model; it was moved beside it by about 1/8000 of the largest "
+         "coordinate",
+         "");
+  }
+}
+
+std::string counted(long long n, std::string_view one, std::string_view many) {
+  return fmt::format("{} {}", n, n == 1 ? one : many);
+}
+
+std::string volumes_of(const gl::FrameStats& s) {
+  std::string text =
+      fmt::format("{} counted z-pass, {} z-fail", s.z_pass_volumes, s.z_fail_volumes);
+  if (s.polygon_volumes > 0) text += fmt::format("; {} of a single polygon", s.polygon_volumes);
+  if (s.scissored_volumes > 0)
+    text += fmt::format("; {} cut to where they can shade", s.scissored_volumes);
+  if (s.culled_volumes > 0)
+    text += fmt::format("; {} left out, they shade nothing seen", s.culled_volumes);
+  return text;
+}
+
+std::string drawing_of(const gl::FrameStats& s) {
+  std::string text = counted(s.passes, "pass of the scene", "passes of the scene");
+  if (s.rectangles > 0)
+    text += ", " + counted(s.rectangles, "rectangle", "rectangles") + " to make the mask";
+  if (s.method.samples > 1) text += fmt::format(", {} samples a pixel asked for", s.method.samples);
+  return text;
+}
+
 void run(const Options& o) {
+  check_options(o);
   gl::HeadlessContext context =
       take(gl::HeadlessContext::create(o.api == "gles" ? gl::Api::opengl_es : gl::Api::opengl));
   gl::Capabilities capabilities = take(gl::find_capabilities());
@@ -114,26 +184,28 @@ void run(const Options& o) {
 
   Warnings warnings = scene.warnings;
   append(warnings, lights.warnings);
+  const Light& light = lights.lights.front().light;
+  if (!o.common.quiet) {
+    const Result<ShadowMask> mask = renderer.mask(first, light, {});
+    if (mask) warn_of_nothing(warnings, stats, mask.value());
+  }
   if (o.check) {
-    const ShadowMask ours = take(renderer.mask(first, lights.lights.front().light, o.frame.method));
-    const ShadowMask exact = cast_shadows(scene, lights.lights.front().light, view);
+    const ShadowMask ours = take(renderer.mask(first, light, o.frame.method));
+    const ShadowMask exact = cast_shadows(scene, light, view);
     std::size_t differ = 0;
     for (std::size_t k = 0; k < exact.state.size(); ++k) differ += ours.state[k] != exact.state[k];
-    fmt::print("{} of {} pixels differ from the exact mask ({:.4f} %)\n", differ,
-               exact.state.size(), 100.0 * double(differ) / double(exact.state.size()));
+    fmt::print(
+        "{} of {} pixels differ from the exact mask ({:.4f} %; gnomon methods: how many may, by "
+        "method)\n",
+        differ, exact.state.size(), 100.0 * double(differ) / double(exact.state.size()));
   }
   if (o.common.quiet) return;
   print_warnings(warnings);
   fmt::print("{}, {} x {} pixels, {} triangles, {}\n", title_of(o.models), view.width, view.height,
              scene.mesh.triangles.size(), lights.first.words);
   fmt::print("{}\n", gl::describe(stats.method));
-  fmt::print(
-      "{} volumes z-pass, {} z-fail, {} of them of single polygons, {} cut to where they matter, "
-      "{} "
-      "left out; {} passes of the scene, {} "
-      "rectangles; first frame {:.0f} ms\n",
-      stats.z_pass_volumes, stats.z_fail_volumes, stats.polygon_volumes, stats.scissored_volumes,
-      stats.culled_volumes, stats.passes, stats.rectangles, ms);
+  fmt::print("shadow volumes: {}\n", volumes_of(stats));
+  fmt::print("drawing: {}, first frame {:.0f} ms\n", drawing_of(stats), ms);
   fmt::print("  {}\n", o.output);
 }
 
@@ -168,10 +240,14 @@ void add_render(CLI::App& app) {
                                           "silhouettes", "counts",     "lights",
                                           "wireframe",   "clip-space", "clipped"};
   command
-      ->add_option("--show", o.show,
-                   "Any of picture, mask, volumes, silhouettes, counts, lights, wireframe, "
-                   "clip-space (the scene in the camera's clip space), clipped (with --observer: "
-                   "nothing outside the camera's frustum); separated by commas")
+      ->add_option(
+          "--show", o.show,
+          "What to draw, separated by commas: picture; over it volumes (yellow), silhouettes "
+          "(pink), lights (yellow points), wireframe (lines for surfaces), counts (of the "
+          "first light: how many volumes hold a sample, blue to red), clip-space (the scene "
+          "in the camera's clip space), clipped (with --observer: nothing outside the "
+          "camera's frustum); or mask alone (of the first light: white where lit, black in "
+          "shadow, grey where nothing is)")
       ->delimiter(',')
       ->check(CLI::IsMember(shows))
       ->group("Output");

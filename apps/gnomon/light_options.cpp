@@ -200,9 +200,10 @@ void add_light_options(CLI::App& command, LightOptions& options) {
                   "Clock: an IANA time zone (Europe/Vienna), UTC, or solar (true solar time)")
       ->group(kGroup);
   command
-      .add_option("--light", options.light,
-                  "Instead of an instant: a light at this place in the model's coordinates, or the "
-                  "direction towards the sun")
+      .add_option(
+          "--light", options.light,
+          "Instead of an instant: a light at this place in the model's coordinates, z up, or the "
+          "direction towards the sun")
       ->type_name("X,Y,Z[,point|sun]")
       ->group(kGroup);
 }

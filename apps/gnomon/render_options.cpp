@@ -39,6 +39,9 @@ void add_choice(CLI::App& command, const std::string& name, T& value, std::vecto
       ->group(kGroup);
 }
 
+constexpr const char* kNoLamp =
+    "--soft is for lamps, and there is none: suns have sharp shadows here";
+
 Vec3 parse_colour(std::string_view text, const std::string& whole) {
   unsigned value = 0;
   const auto [end, error] = std::from_chars(text.data() + 1, text.data() + text.size(), value, 16);
@@ -53,11 +56,14 @@ Vec3 parse_colour(std::string_view text, const std::string& whole) {
 std::string take_looks(const std::string& text, gl::LightSource& source) {
   std::string rest;
   std::string_view left = text;
+  bool coloured = false;
   while (!left.empty()) {
     const std::size_t comma = left.find(',');
     const std::string_view part = left.substr(0, comma);
     left.remove_prefix(comma == std::string_view::npos ? left.size() : comma + 1);
     if (part.starts_with('#')) {
+      if (std::exchange(coloured, true))
+        throw Failure(fmt::format("--light '{}' has two colours: give it one", text));
       source.colour = parse_colour(part, text);
     } else if (part.starts_with("radius=")) {
       const std::string_view number = part.substr(7);
@@ -136,15 +142,19 @@ void add_render_lights(CLI::App& command, RenderLights& o) {
       ->group(group);
   command
       .add_option("--light", o.lights,
-                  "X,Y,Z[,point|sun][,#rrggbb][,radius=METRES]: the place of a lamp in the model's "
-                  "coordinates, or the direction towards a sun; may be repeated")
+                  "X,Y,Z[,point|sun][,#rrggbb][,radius=METRES]: the place of a lamp (point, the "
+                  "default) in the model's coordinates, z up, or the direction towards a sun; its "
+                  "colour at full brightness (default #ffffff; darker: dimmer); how far a lamp's "
+                  "light reaches (default: everywhere). May be repeated: lights add up")
       ->group(group);
   command
       .add_option("--soft", o.soft,
-                  "METRES: each lamp becomes a ball of lights of this radius (soft shadows)")
+                  "METRES: each lamp becomes a ball of this radius, of --soft-lights lights with "
+                  "its brightness together (soft shadows)")
       ->check(positive_number())
       ->group(group);
   command.add_option("--soft-lights", o.soft_lights, "Number of lights in the ball")
+      ->needs("--soft")
       ->check(CLI::Range(2, 4096))
       ->capture_default_str()
       ->group(group);
@@ -154,6 +164,7 @@ ChosenLights choose_lights(const RenderLights& o, const Scene& scene) {
   ChosenLights out;
   if (o.lights.empty()) {
     check_light_options(o.one);
+    if (o.soft > 0) throw Failure(kNoLamp);
     out.first = choose_light(o.one, scene);
     out.warnings = out.first.warnings;
     gl::LightSource sun;
@@ -161,6 +172,7 @@ ChosenLights choose_lights(const RenderLights& o, const Scene& scene) {
     out.lights = {sun};
     return out;
   }
+  bool lamp = false;
   for (const std::string& text : o.lights) {
     gl::LightSource source;
     LightOptions options = o.one;
@@ -170,6 +182,12 @@ ChosenLights choose_lights(const RenderLights& o, const Scene& scene) {
     if (out.lights.empty()) out.first = chosen;
     append(out.warnings, chosen.warnings);
     source.light = chosen.light;
+    if (source.light.w == 0 && source.radius > 0) {
+      throw Failure(fmt::format(
+          "--light '{}': radius= says how far a lamp's light reaches; a sun's reaches everywhere",
+          text));
+    }
+    lamp |= source.light.w != 0;
     if (o.soft > 0 && source.light.w != 0) {
       const std::vector<Vec3> places = ball(Vec3(source.light), o.soft, o.soft_lights);
       source.colour /= double(places.size());
@@ -181,6 +199,7 @@ ChosenLights choose_lights(const RenderLights& o, const Scene& scene) {
       out.lights.push_back(source);
     }
   }
+  if (o.soft > 0 && !lamp) throw Failure(kNoLamp);
   if (o.lights.size() > 1) out.first.words = fmt::format("{} lights", o.lights.size());
   return out;
 }

@@ -65,8 +65,9 @@ Vec3 parse_point(const std::string& text, const char* option, const Vec3& origin
 std::array<int, 2> parse_size(const std::string& text) {
   int w = 0, h = 0;
   char extra = 0;
-  if (std::sscanf(text.c_str(), "%dx%d%c", &w, &h, &extra) != 2 || w < 1 || h < 1 || w > 32767 ||
-      h > 32767) {
+  if (std::sscanf(text.c_str(), "%dx%d%c", &w, &h, &extra) == 2 && std::max(w, h) > 32767)
+    throw Failure(fmt::format("--size '{}' is too large: at most 32767x32767 pixels", text));
+  if (std::sscanf(text.c_str(), "%dx%d%c", &w, &h, &extra) != 2 || w < 1 || h < 1) {
     throw Failure(fmt::format(
         "cannot read --size '{}': give it as WIDTHxHEIGHT in pixels, such as 1600x1000", text));
   }
@@ -114,7 +115,9 @@ void check_positive(double value, const char* option) {
 
 void add_camera_options(CLI::App& command, ViewOptions& o) {
   const char* group = "View";
-  command.add_option("--eye", o.eye, "Camera: X,Y,Z in the model's coordinates (default: chosen)")
+  command
+      .add_option("--eye", o.eye,
+                  "Camera: X,Y,Z in the model's coordinates, z up (default: chosen)")
       ->group(group);
   command
       .add_option("--target", o.target,

@@ -243,12 +243,6 @@ Prepared prepare(const Frame& frame, const LightPlan& plan) {
     for (InstanceVolumes& v : out.all) find_rectangles(frame, plan, v);
   }
   update_all_lists(frame, plan, out);
-  for (const InstanceVolumes& v : out.all) {
-    frame.stats->z_fail_volumes += static_cast<int>(v.volumes->z_fail_volumes);
-    frame.stats->z_pass_volumes +=
-        static_cast<int>(v.volumes->lists.volumes.size() - v.volumes->z_fail_volumes);
-    for (const std::uint8_t p : v.volumes->polygon) frame.stats->polygon_volumes += p;
-  }
   return out;
 }
 
@@ -756,6 +750,12 @@ void draw_where_shadowed(Pass& p, const LitTest& lit) {
 Result<LitTest> draw_light_mask(const Frame& frame, const LightPlan& plan, const Target* target) {
   const Method& m = plan.method;
   Prepared prepared = prepare(frame, plan);
+  for (const InstanceVolumes& v : prepared.all) {
+    frame.stats->z_fail_volumes += static_cast<int>(v.volumes->z_fail_volumes);
+    frame.stats->z_pass_volumes +=
+        static_cast<int>(v.volumes->lists.volumes.size() - v.volumes->z_fail_volumes);
+    for (const std::uint8_t p : v.volumes->polygon) frame.stats->polygon_volumes += p;
+  }
   if (m.mask == MaskIn::stencil) {
     const LitTest lit = count_in_stencil(frame, plan, prepared);
     count_unlit_receivers(frame, plan, prepared);

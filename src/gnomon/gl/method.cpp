@@ -195,7 +195,9 @@ Result<Method> decide(Method m, const Situation& s, const Capabilities& c) {
                                     s.near_shaded))) {
     return refuse(
         "Rays of a parallel view may run inside a lamp's volume for ever, and its dark cap at "
-        "infinity has no place in the picture: take --reach bounded, or raise the lamp.");
+        "infinity has no place in the picture: take " +
+        std::string(s.can_bound ? "--reach bounded."
+                                : "a perspective view, or raise the lamp above all casters."));
   }
 
   // Volumes.
