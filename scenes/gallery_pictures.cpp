@@ -41,10 +41,8 @@ struct Studio {
   void draw(gl::Renderer& renderer, const std::string& name, const gl::Camera& camera,
             const std::vector<gl::LightSource>& lights, const gl::FrameOptions& options) const {
     const gl::Image image = take(renderer.render(camera, lights, options));
-    Picture picture{image.width, image.height, {}};
-    for (std::size_t i = 0; i < image.rgba.size(); i += 4)
-      picture.pixels.push_back({image.rgba[i], image.rgba[i + 1], image.rgba[i + 2]});
-    take(write_png(folder / (name + ".png"), picture));
+    take(write_png(folder / (name + ".png"),
+                   picture_of_rgba(image.width, image.height, image.rgba)));
     std::printf("  %s.png\n", name.c_str());
   }
 };

@@ -25,10 +25,7 @@ T take(Result<T> result) {
 }
 
 Picture picture_of(const gl::Image& image) {
-  Picture out{image.width, image.height, {}};
-  for (std::size_t i = 0; i < image.rgba.size(); i += 4)
-    out.pixels.push_back({image.rgba[i], image.rgba[i + 1], image.rgba[i + 2]});
-  return out;
+  return picture_of_rgba(image.width, image.height, image.rgba);
 }
 
 Rgb shade_of(std::uint8_t state) {

@@ -126,12 +126,8 @@ void write_picture(const Options& o, const std::string& name, Way& way, const gl
   const double phase = double(slowest - way.seconds.begin()) / double(way.seconds.size());
   const gl::Image image =
       take(way.renderer.render(camera, lights_of(lamps(way.lights, phase)), way.options));
-  Picture picture;
-  picture.width = image.width;
-  picture.height = image.height;
-  for (std::size_t i = 0; i < image.rgba.size(); i += 4)
-    picture.pixels.push_back({image.rgba[i], image.rgba[i + 1], image.rgba[i + 2]});
-  take(write_png(std::filesystem::path(o.pictures) / (name + ".png"), picture, o.common.threads));
+  take(write_png(std::filesystem::path(o.pictures) / (name + ".png"),
+                 picture_of_rgba(image.width, image.height, image.rgba), o.common.threads));
 }
 
 // --- Table 2 of Roettger, Irion and Ertl, Shadow Volumes Revisited, 2002 ----------------------
@@ -348,7 +344,8 @@ void run(const Options& o) {
       "draw frame 2, and so on, {} times over. A frame's time is the median of its {}; the mean is "
       "the number of frames over the sum of their times, the minimum that of the slowest frame.\n\n"
       "Shadows are attenuated (one lamp) or light by light (several); masks by {}, faces counted "
-      "{}, {} reach; \"stencil buffer\" draws volumes twice with face culling, as the paper did, "
+      "{}, {} reach; \"stencil buffer\" draws volumes twice, once for each facing, as the paper "
+      "did, "
       "\"two-sided\" "
       "once; half and quarter are of the alpha buffer. Paper: GeForce2 MX, AMD 800 MHz "
       "(Roettger, Irion, Ertl, Table 2); GeForce4 Ti 4600 (Everitt, Kilgard, Figure 4). The "

@@ -34,13 +34,7 @@ struct Options {
 };
 
 Picture picture_of(const gl::Image& image) {
-  Picture out;
-  out.width = image.width;
-  out.height = image.height;
-  out.pixels.reserve(std::size_t(image.width) * image.height);
-  for (std::size_t i = 0; i < image.rgba.size(); i += 4)
-    out.pixels.push_back({image.rgba[i], image.rgba[i + 1], image.rgba[i + 2]});
-  return out;
+  return picture_of_rgba(image.width, image.height, image.rgba);
 }
 
 Picture picture_of(const ShadowMask& mask) {

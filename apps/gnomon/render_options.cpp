@@ -100,7 +100,7 @@ void add_method_options(CLI::App& command, gl::Method& m) {
              {VolumesOf::automatic, VolumesOf::caster, VolumesOf::polygon}, "One volume for each");
   add_choice(command, "--stencil-passes", m.passes,
              {StencilPasses::two_sided, StencilPasses::culled},
-             "Both faces in one pass, or two passes with culling");
+             "Both faces in one pass, or a pass for each");
   add_choice(command, "--stencil-ops", m.ops, {StencilOps::wrap, StencilOps::saturate},
              "Stencil arithmetic");
   add_choice(command, "--arithmetic", m.arithmetic, {Arithmetic::doubling, Arithmetic::maximum},

@@ -19,6 +19,23 @@ std::vector<double> column(const FrameCase& c, double FrameTime::*part) {
 
 }  // namespace
 
+void add_options(CLI::App& app, FrameCommand& o) {
+  app.add_option("--size", o.size, "Pixels across and down")
+      ->check(CLI::Range(16, 4096))
+      ->capture_default_str();
+  app.add_option("--rounds", o.rounds, "Turns of each case")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  app.add_option("--frames", o.frames, "Frames timed in each turn")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+  app.add_option("--picture", o.picture, "Write the picture to this PNG");
+  app.add_option("--picture-frame", o.picture_frame,
+                 "Of the moving lamp's frames, the picture's (-1: the still lamp)")
+      ->capture_default_str();
+  app.add_option("--json", o.json, "Write all times to this file");
+}
+
 FrameTime FrameWatch::read() const {
   return {1000 * watch_.seconds(), 1000.0 * double(std::clock() - start_) / CLOCKS_PER_SEC};
 }

@@ -1,6 +1,7 @@
 // The frames that every contender draws and times, in turns, and how they are reported.
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <ctime>
 #include <functional>
 #include <string>
@@ -14,6 +15,15 @@
 #include "city_check.h"
 
 namespace gnomon::bench {
+
+// What every contender's command line has.
+struct FrameCommand {
+  int size = 512;  // pixels across and down
+  int rounds = 4, frames = 25;
+  std::string picture, json;  // files to write; empty: none
+  int picture_frame = -1;     // of the moving lamp; -1: the still lamp
+};
+void add_options(CLI::App& app, FrameCommand& to);
 
 struct FrameTime {
   double ms = 0;      // as the clock on the wall has it

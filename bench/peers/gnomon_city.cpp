@@ -19,14 +19,10 @@
 namespace gnomon::bench {
 namespace {
 
-struct Options {
-  int size = 512;
+struct Options : FrameCommand {
   std::string shadows = "auto";
   std::string count = "auto";
-  int rounds = 4, frames = 25;
   std::string only;
-  std::string picture, json;
-  int picture_frame = -1;  // of the moving lamp; -1: the still lamp
 };
 
 template <class T>
@@ -152,27 +148,14 @@ int main(int argc, char** argv) {
   CLI::App app{
       "The box city by Gnomon's renderer: a row of a Markdown table (picture's size, median, least "
       "and processor's milliseconds per frame)"};
-  app.add_option("--size", o.size, "Pixels across and down")
-      ->check(CLI::Range(16, 4096))
-      ->capture_default_str();
+  gnomon::bench::add_options(app, o);
   app.add_option("--shadows", o.shadows, "What a shadow is in the picture")
       ->check(CLI::IsMember({"auto", "attenuated"}))
       ->capture_default_str();
   app.add_option("--count", o.count, "Counting")
       ->check(CLI::IsMember({"auto", "zpass", "zfail"}))
       ->capture_default_str();
-  app.add_option("--rounds", o.rounds, "Turns of each case")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  app.add_option("--frames", o.frames, "Frames timed in each turn")
-      ->check(CLI::Range(1, 10000))
-      ->capture_default_str();
   app.add_option("--only", o.only, "Time this case alone, e.g. \"lamp moving\"");
-  app.add_option("--picture", o.picture, "Write the picture to this PNG");
-  app.add_option("--picture-frame", o.picture_frame,
-                 "Of the moving lamp's frames, the picture's (-1: the still lamp)")
-      ->capture_default_str();
-  app.add_option("--json", o.json, "Write all times to this file");
   CLI11_PARSE(app, argc, argv);
   try {
     return gnomon::bench::run(o);

@@ -34,15 +34,11 @@ namespace {
 
 using irr::core::vector3df;
 
-struct Options {
+struct Options : FrameCommand {
   std::string boxes, ground;
-  int size = 512;
   std::string method = "zpass";
   int block = 1;        // boxes across and deep that one volume is made of
   double infinity = 0;  // metres; 0: as short as the ground allows
-  int rounds = 4, frames = 25;
-  std::string picture, json;
-  int picture_frame = -1;  // of the moving lamp; -1: the still lamp
 };
 
 struct Drop {
@@ -351,9 +347,7 @@ int main(int argc, char** argv) {
       "median, least and processor's milliseconds per frame)"};
   app.add_option("BOXES", o.boxes, "OBJ with a group for each box")->required();
   app.add_option("GROUND", o.ground, "OBJ of the ground")->required();
-  app.add_option("--size", o.size, "Pixels across and down")
-      ->check(CLI::Range(16, 4096))
-      ->capture_default_str();
+  gnomon::bench::add_options(app, o);
   app.add_option("--method", o.method, "Counting")
       ->check(CLI::IsMember({"zpass", "zfail"}))
       ->capture_default_str();
@@ -366,17 +360,6 @@ int main(int argc, char** argv) {
                  "Metres from a box to its volume's end (0: as few as needed to reach the ground)")
       ->check(CLI::Range(0.0, 1e5))
       ->capture_default_str();
-  app.add_option("--rounds", o.rounds, "Turns of each case")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  app.add_option("--frames", o.frames, "Frames timed in each turn")
-      ->check(CLI::Range(1, 10000))
-      ->capture_default_str();
-  app.add_option("--picture", o.picture, "Write the picture to this PNG");
-  app.add_option("--picture-frame", o.picture_frame,
-                 "Of the moving lamp's frames, the picture's (-1: the still lamp)")
-      ->capture_default_str();
-  app.add_option("--json", o.json, "Write all times to this file");
   CLI11_PARSE(app, argc, argv);
   try {
     return gnomon::bench::run(o);

@@ -261,5 +261,26 @@ TEST(MaskArithmetic, PicturesThatTheSceneDoesNotFillAreDrawnInFloatsToo) {
   }
 }
 
+// A view along a row of walls enters more volumes than eight bits hold, but no point is in more
+// than a few: saturating counts are lost, wrapping ones are not, and groups are not needed.
+TEST(Stencil, ThatSaturatesIsCountedAgainAsOneThatWrapsWhereLayersAreFew) {
+  TriMesh m;
+  test::add_ground(m, 400);
+  for (int k = 0; k < 300; ++k) test::add_box(m, {-5, 1.0 * k, 3}, {5, 1.0 * k + 0.5, 4});
+  const Scene scene = test::scene_of(std::move(m));
+  const View view = perspective_view({0.1, -20, 2.5}, {0, 300, 1}, {0, 0, 1}, 0.5, 64, 48);
+  const Camera camera = camera_of(view, depth_range(scene, view, true));
+  Stage stage = stage_of(scene);
+  const ShadowMask wrapped = stage.renderer.mask(camera, kAbove, {}).value();
+  Method saturating;
+  saturating.passes = StencilPasses::culled;
+  saturating.ops = StencilOps::saturate;
+  saturating.volumes = VolumesOf::polygon;
+  FrameStats stats;
+  EXPECT_EQ(
+      count_different(stage.renderer.mask(camera, kAbove, saturating, &stats).value(), wrapped), 0);
+  EXPECT_EQ(stats.stencil_groups, 1);
+}
+
 }  // namespace
 }  // namespace gnomon::gl

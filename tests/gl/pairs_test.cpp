@@ -216,6 +216,20 @@ TEST(Edges, SamplesOnThemAreToldApart) {
   }
 }
 
+// 340 layers, each `rise` above the one before.
+void add_folded_strip(TriMesh& m, double rise) {
+  constexpr int kFolds = 340;  // modulo 128 more than half of it: a group that holds all is lit
+  const auto first = static_cast<std::uint32_t>(m.positions.size());
+  for (int k = 0; k <= kFolds; ++k) {
+    const double x = k % 2 == 0 ? -3 : 3;
+    m.positions.insert(m.positions.end(), {Vec3(x, -3, 8 + rise * k), Vec3(x, 3, 8 + rise * k)});
+  }
+  for (std::uint32_t k = 0; k < kFolds; ++k) {
+    const std::uint32_t a = first + 2 * k;
+    m.triangles.insert(m.triangles.end(), {{a, a + 1, a + 2}, {a + 2, a + 1, a + 3}});
+  }
+}
+
 // Ground of 32 x 32 metres, `fine` x `fine` cells a square metre, two triangles each.
 TriMesh rolling_ground(int fine) {
   TriMesh m;
@@ -260,14 +274,16 @@ TEST(Grazing, MovesNoSidesButThoseOfWhatIsGrazed) {
   }
 }
 
-// Prisms of a flat ground with trees, far smaller than pixels, in groups: a side that two of them share, and that lies in one group's
-// prism before a sample by rounding, must cancel with the other group's.
+// Prisms of a flat ground with trees, far smaller than pixels, in groups: a side that two of them
+// share, and that lies in one group's prism before a sample by rounding, must cancel with the other
+// group's.
 TEST(Groups, OfPolygonsAreTheMaskOfTheWhole) {
   TriMesh ground = rolling_ground(8);
   for (std::size_t k = 0; k < ground.positions.size(); ++k) {  // flat, with trees
     const bool tree = k % 11 < 4 && k / 257 % 7 < 3;
     ground.positions[k].z = tree ? 3 + 0.37 * double(k % 13) : 0;
   }
+  add_folded_strip(ground, 0.0005);  // so many layers that they must be counted in groups
   const Scene scene = test::scene_of(std::move(ground));
 
   const View view = plan_view({-16, -16, 16, 16}, 0.5, 0);
@@ -312,16 +328,7 @@ TEST(Grazing, WallThatLeansBackUnderAnEaveIsInItsShadow) {
 TEST(Mixed, CountsARegionOfMoreLayersThanTheStencilHolds) {
   TriMesh m;
   test::add_ground(m, 40);
-  constexpr int kFolds = 340;  // modulo 128 more than half of it: a group that holds all is lit
-  const auto first = static_cast<std::uint32_t>(m.positions.size());
-  for (int k = 0; k <= kFolds; ++k) {
-    const double x = k % 2 == 0 ? -3 : 3;
-    m.positions.insert(m.positions.end(), {Vec3(x, -3, 8 + 0.01 * k), Vec3(x, 3, 8 + 0.01 * k)});
-  }
-  for (std::uint32_t k = 0; k < kFolds; ++k) {
-    const std::uint32_t a = first + 2 * k;
-    m.triangles.insert(m.triangles.end(), {{a, a + 1, a + 2}, {a + 2, a + 1, a + 3}});
-  }
+  add_folded_strip(m, 0.01);
   const Scene scene = test::scene_of(std::move(m));
   const View view = perspective_view({-2, 0, 4}, {10, 0, 0}, {0, 0, 1}, 1.2, 64, 48);
   const Camera camera = camera_of(view, depth_range(scene, view, true));

@@ -119,14 +119,20 @@ struct Builder {
   }
 };
 
-// The doubled vertices, extruded on the CPU as the shader does it.
+// The doubled vertices, extruded on the CPU as the shader does it: columns are added in their order
+// (glm adds them in pairs), so that no bit differs from what a shader without fused operations
+// computes. To infinity there is one rounding, whatever the order.
 std::vector<glm::vec4> extrude(const TriMesh& mesh, const glm::mat4& project) {
   std::vector<glm::vec4> out;
   out.reserve(mesh.positions.size() * 2);
   for (const Vec3& position : mesh.positions) {
     const glm::vec3 p(position);
     out.emplace_back(p, 1.0f);
-    out.push_back(project * glm::vec4(p, 1.0f));
+    glm::vec4 behind = project[0] * p.x;
+    behind += project[1] * p.y;
+    behind += project[2] * p.z;
+    behind += project[3];
+    out.push_back(behind);
   }
   return out;
 }

@@ -43,14 +43,32 @@ constexpr int kGroupMiddle = 32, kGroupFull = 64, kGroupLayers = 63;
 constexpr GLuint kGroupBits = 0x7f, kShadedBit = 0x80;
 static_assert(kGroupFull - 1 + kGroupLayers <= int(kGroupBits));
 
-// Uniforms and vertices of one instance's volumes.
-void use_volumes(const Frame& frame, const LightPlan& plan, const InstanceVolumes& v) {
+bool starts_at_near_plane(const Method& m) {
+  return m.count == Count::near_cap || m.count == Count::zp_plus;
+}
+
+// With depth clamp no side is cut by the near or far plane, however it is counted: a cut one has
+// other corners, and z-pass and z-fail would differ where these are rounded. z-pass then leaves out
+// what lies before the near plane, where it starts to count. In a parallel view a sun's may as well
+// start at infinity, where nothing is in shadow.
+bool leaves_out_before_near(const Frame& frame, const LightPlan& plan, bool z_fail) {
+  const Method& m = plan.method;
+  const bool nothing_before = frame.camera->eye.w == 0 && plan.light.w == 0 && !m.unchecked;
+  return !z_fail && m.far_plane == FarPlane::clamp && (starts_at_near_plane(m) || !nothing_before);
+}
+
+GLuint volume_program(const Frame& frame, const LightPlan& plan, bool z_fail) {
+  const Programs& programs = frame.state->programs;
   const auto form = static_cast<std::size_t>(plan.method.extrusion);
-  const GLuint program = frame.state->programs.volume[form].id();
+  return leaves_out_before_near(frame, plan, z_fail) ? programs.volume_from_near[form].id()
+                                                     : programs.volume[form].id();
+}
+
+// Uniforms and vertices of one instance's volumes.
+void use_volumes(const Frame& frame, const InstanceVolumes& v, GLuint program) {
   glUseProgram(program);
   set(program, "u_clip", frame.clip_of(*v.instance));
   set(program, "u_project", v.plan->project);
-  set(program, "u_colour", glm::vec4(1));
   glBindVertexArray(v.volumes->array.id());
 }
 
@@ -169,19 +187,27 @@ void update_all_lists(const Frame& frame, const LightPlan& plan, Prepared& prepa
   if (plan.method.count == Count::near_cap) make_near_caps(frame, prepared.all);
 }
 
-bool starts_at_near_plane(const Method& m) {
-  return m.count == Count::near_cap || m.count == Count::zp_plus;
-}
+// A volume has a scissor of its own where that saves so much of the picture: a sixteenth, above
+// what a draw of its own costs (with none, frames of many small bodies took 5 % longer).
+constexpr double kScissorSaves = 1.0 / 16;
 
 void find_rectangles(const Frame& frame, const LightPlan& plan, InstanceVolumes& v) {
+  const Camera& camera = *frame.camera;
+  const Rect whole = frame.scissor.value_or(Rect{0, 0, camera.width, camera.height});
+  const auto area = [&](const Rect& r) {
+    const Rect seen = common(whole, r);
+    return double(seen.width) * seen.height;
+  };
   v.rectangles.clear();
   for (const Part& part : v.mesh->parts.parts) {
-    SceneBox box{part.lo, part.hi};
-    std::array<Vec3, 8> corners = corners_of(box);
+    std::array<Vec3, 8> corners = corners_of({part.lo, part.hi});
     for (Vec3& p : corners) p = Vec3(v.instance->to_scene * point(p));
-    box = {corners[0], corners[0]};
+    SceneBox box{corners[0], corners[0]};
     for (const Vec3& p : corners) box = {glm::min(box.lo, p), glm::max(box.hi, p)};
-    std::optional<Rect> r = shadow_rectangle(*frame.camera, plan.light, box, *plan.receivers);
+    std::optional<Rect> r = shadow_rectangle(camera, plan.light, box, *plan.receivers);
+    if (r && r->width > 0 &&
+        area(endless_rectangle(camera, plan.light, box)) - area(*r) <= kScissorSaves * area(whole))
+      r.reset();
     if (r && plan.method.mask_scale < 1) r = scaled(*r, plan.method.mask_scale);
     v.rectangles.push_back(r);
   }
@@ -225,16 +251,12 @@ Batch batch_of(const InstanceVolumes& v, std::size_t first, std::size_t last, bo
   return b;
 }
 
-// Where one volume matters, in the frame's scissor; nothing where that is no smaller than half.
+// Where one volume matters, in the frame's scissor.
 std::optional<Rect> scissor_of(const Frame& frame, const InstanceVolumes& v, std::size_t volume) {
   if (v.rectangles.empty()) return {};
   const std::optional<Rect>& own = v.rectangles[v.volumes->lists.volumes[volume].caster];
-  if (!own) return {};
-  const Rect whole = frame.scissor.value_or(Rect{0, 0, frame.camera->width, frame.camera->height});
-  const Rect r = common(whole, *own);
-  const auto area = [](const Rect& x) { return double(x.width) * x.height; };
-  if (area(r) > area(whole) / 2) return {};
-  return r;
+  if (!own || !frame.scissor) return own;
+  return common(*frame.scissor, *own);
 }
 
 // Appends batches of the volumes first .. last - 1: at once, but for those that matter in a small
@@ -327,9 +349,7 @@ void draw_near_start(const Frame& frame, const LightPlan& plan, const Batch& b, 
 Pass stencil_pass(const Method& m, bool grouped, bool z_fail, bool turned, int phase) {
   Pass p;
   p.depth_func = GL_LESS;
-  // It would let through what lies before the near plane, where z-pass starts to count; what lies
-  // beyond the far plane is in front of nothing.
-  p.depth_clamp = z_fail && m.far_plane == FarPlane::clamp;
+  p.depth_clamp = m.far_plane == FarPlane::clamp;
   p.stencil_test = true;
   if (grouped) p.stencil_write = kGroupBits;
   const GLenum up = m.ops == StencilOps::wrap ? GL_INCR_WRAP : GL_INCR;
@@ -341,9 +361,11 @@ Pass stencil_pass(const Method& m, bool grouped, bool z_fail, bool turned, int p
   (z_fail ? enter.depth_fail : enter.depth_pass) = z_fail ? down : up;
   (z_fail ? leave.depth_fail : leave.depth_pass) = z_fail ? up : down;
   if (m.passes == StencilPasses::culled) {
-    // Phase 0 draws what counts up, phase 1 what counts down: saturation at 0 loses nothing.
-    const bool draw_enter = (phase == 0) != z_fail;
-    p.cull = draw_enter != turned ? GL_BACK : GL_FRONT;
+    // Phase 0 counts up, phase 1 counts down: saturation at 0 loses nothing. The other faces are
+    // left alone, not culled: drivers cull what they clip before its corners are rounded to pixels
+    // (llvmpipe), and a sliver that these turn round would be in neither phase.
+    const bool enters = (phase == 0) != z_fail;
+    (enters ? leave : enter) = {};
   }
   return p;
 }
@@ -371,7 +393,7 @@ void count_phase(const Frame& frame, const LightPlan& plan, const Method& m,
           apply(p, frame);
         }
         applied = true;
-        if (used != b.of) use_volumes(frame, plan, *b.of);
+        if (used != b.of) use_volumes(frame, *b.of, volume_program(frame, plan, z_fail));
         used = b.of;
         draw_faces(frame, m, b, p, turned);
       }
@@ -379,11 +401,10 @@ void count_phase(const Frame& frame, const LightPlan& plan, const Method& m,
   }
 }
 
-void count_group(const Frame& frame, const LightPlan& plan, const std::vector<Batch>& batches,
-                 bool grouped) {
-  const int phases = plan.method.passes == StencilPasses::culled ? 2 : 1;
-  for (int phase = 0; phase < phases; ++phase)
-    count_phase(frame, plan, plan.method, batches, grouped, phase);
+void count_group(const Frame& frame, const LightPlan& plan, const Method& m,
+                 const std::vector<Batch>& batches, bool grouped) {
+  const int phases = m.passes == StencilPasses::culled ? 2 : 1;
+  for (int phase = 0; phase < phases; ++phase) count_phase(frame, plan, m, batches, grouped, phase);
 }
 
 void clear_stencil(const Frame& frame, int value) {
@@ -424,19 +445,27 @@ bool count_saturating(const Frame& frame, const LightPlan& plan,
 LitTest count_in_stencil(const Frame& frame, const LightPlan& plan, Prepared& prepared) {
   auto groups = batches_of(frame, prepared);
   frame.stats->stencil_groups = 1;
-  if (plan.method.ops == StencilOps::wrap && prepared.layers <= kWrapLayers) {
+  const bool wraps = prepared.layers <= kWrapLayers;
+  if ((plan.method.ops == StencilOps::saturate || !wraps) &&
+      count_saturating(frame, plan, groups.front())) {
+    return {GL_GEQUAL, 0, 0xff, GL_INCR, 0xff};
+  }
+  // Faces that count up may be too many though layers are few. Groups would be worse: neighbours in
+  // two of them do not cancel where they are rounded.
+  if (wraps) {
     clear_stencil(frame, kWrapMiddle);
-    count_group(frame, plan, groups.front(), false);
+    Method m = plan.method;
+    m.ops = StencilOps::wrap;
+    count_group(frame, plan, m, groups.front(), false);
     return {GL_GEQUAL, kWrapMiddle, 0xff, GL_INCR, 0xff};
   }
-  if (count_saturating(frame, plan, groups.front())) return {GL_GEQUAL, 0, 0xff, GL_INCR, 0xff};
   prepared.grouped = true;
   update_all_lists(frame, plan, prepared);
   groups = batches_of(frame, prepared);
   frame.stats->stencil_groups = static_cast<int>(groups.size());
   clear_stencil(frame, kGroupMiddle);
   for (std::size_t k = 0; k < groups.size(); ++k) {
-    count_group(frame, plan, groups[k], true);
+    count_group(frame, plan, plan.method, groups[k], true);
     const bool last = k + 1 == groups.size();
     Pass keep;  // where the count is far above the middle (at the end: above it), the shaded bit
     keep.depth_test = false;
@@ -464,18 +493,19 @@ LitTest count_in_stencil(const Frame& frame, const LightPlan& plan, Prepared& pr
 struct Blend {
   GLenum source, destination;
   float brightness;
+  float neutral;  // changes nothing
 };
-constexpr Blend kDouble{GL_DST_COLOR, GL_ONE, 1.0f};
-constexpr Blend kHalve{GL_DST_COLOR, GL_ZERO, 0.5f};
+constexpr Blend kDouble{GL_DST_COLOR, GL_ONE, 1.0f, 0.0f};
+constexpr Blend kHalve{GL_DST_COLOR, GL_ZERO, 0.5f, 1.0f};
+
+// The maximum variant in eight bits begins so many doublings below the clamp: where rounding of
+// depths counts a pixel below 0, it must not be lost there before a shadow brings it back to 0.
+constexpr int kRoomSteps = 2;
+static_assert(0.25f * (1 << kRoomSteps) == 1.0f);
 
 std::array<bool, 4> mask_channels(const Method& m) {
   if (m.mask == MaskIn::alpha) return {false, false, false, true};
   return {true, true, true, true};
-}
-
-void set_brightness(const Frame& frame, const LightPlan& plan, float brightness) {
-  const auto form = static_cast<std::size_t>(plan.method.extrusion);
-  set(frame.state->programs.volume[form].id(), "u_colour", glm::vec4(brightness));
 }
 
 // One volume after the other: what enters first, then what leaves, so that the clamp at 1 (maximum:
@@ -495,7 +525,7 @@ void count_by_blending(const Frame& frame, const LightPlan& plan, const Prepared
         const Blend& blend = first == doubling ? kDouble : kHalve;
         Pass p;
         p.depth_func = z_fail ? GL_GEQUAL : GL_LESS;
-        p.depth_clamp = z_fail && m.far_plane == FarPlane::clamp;
+        p.depth_clamp = m.far_plane == FarPlane::clamp;
         p.blend = true;
         p.source = blend.source;
         p.destination = blend.destination;
@@ -505,13 +535,15 @@ void count_by_blending(const Frame& frame, const LightPlan& plan, const Prepared
           p.cull = first ? GL_BACK : GL_FRONT;  // slivers of a near cap that are turned leave
           draw_near_start(frame, plan, b, p, blend.brightness);
         }
-        use_volumes(frame, plan, v);
-        set_brightness(frame, plan, blend.brightness);
+        const GLuint program = volume_program(frame, plan, z_fail);
+        use_volumes(frame, v, program);
+        p.cull = GL_NONE;  // faces go by gl_FrontFacing: see stencil_pass()
         for (const bool turned : {false, true}) {
           if (!any(b.ranges, turned)) continue;
           // z-pass: entering faces first. z-fail: leaving faces first.
-          const bool draw_enter = first != z_fail;
-          p.cull = draw_enter != turned ? GL_BACK : GL_FRONT;
+          const bool front = (first != z_fail) != turned;
+          set(program, "u_front_colour", glm::vec4(front ? blend.brightness : blend.neutral));
+          set(program, "u_back_colour", glm::vec4(front ? blend.neutral : blend.brightness));
           apply(p, frame);
           draw_faces(frame, m, b, p, turned);
         }
@@ -581,6 +613,12 @@ void normalise(const Frame& frame, const Method& m) {
     rectangle_blend(frame, m, GL_ONE, GL_ONE, maximum ? 1.0f : 0.5f, GL_MIN);
   }
   if (m.arithmetic == Arithmetic::maximum) {
+    if (m.float_bits == 0) {  // beyond the paper, whose lit is the clamp from the beginning
+      for (int k = 0; k < kRoomSteps; ++k)
+        rectangle_blend(frame, m, kDouble.source, kDouble.destination, 1.0f);
+      frame.stats->rectangles -= kRoomSteps;
+      frame.stats->other_rectangles += kRoomSteps;
+    }
     rectangle_blend(frame, m, GL_ONE, GL_ONE, 0.5f, GL_MAX);  // 1/2 in shadow, 1 where lit
     if (!attenuated) {  // beyond the paper: 0 and 1, to add a light
       rectangle_blend(frame, m, GL_ONE, GL_ONE, 0.5f, GL_FUNC_REVERSE_SUBTRACT);
@@ -673,7 +711,7 @@ void count_unlit_receivers(const Frame& frame, const LightPlan& plan, const Prep
 void clear_colours(const Frame& frame, const Method& m) {
   Pass p;
   p.depth_test = false;
-  const float start = m.arithmetic == Arithmetic::maximum ? 1.0f : 0.25f;
+  const float start = m.arithmetic == Arithmetic::maximum && m.float_bits > 0 ? 1.0f : 0.25f;
   p.colour = mask_channels(m);
   apply(p, frame);
   glClearColor(start, start, start, start);
@@ -736,9 +774,9 @@ void draw_volume_faces(const Frame& frame, const LightPlan& plan, const Pass& pa
   apply(pass, frame);
   for (const std::vector<Batch>& batches : batches_of(frame, prepared)) {
     for (const Batch& b : batches) {
-      use_volumes(frame, plan, *b.of);
       GLuint program =
           frame.state->programs.volume[static_cast<std::size_t>(plan.method.extrusion)].id();
+      use_volumes(frame, *b.of, program);
       if (const auto& inside = frame.camera->keep_inside) {
         program = frame.state->programs.volume_inside.id();
         glUseProgram(program);
@@ -746,7 +784,8 @@ void draw_volume_faces(const Frame& frame, const LightPlan& plan, const Pass& pa
         set(program, "u_project", b.of->plan->project);
         set(program, "u_inside", glm::mat4(*inside * b.of->instance->to_scene));
       }
-      set(program, "u_colour", colour);
+      set(program, "u_front_colour", colour);
+      set(program, "u_back_colour", colour);
       for (const bool turned : {false, true}) {
         draw_sides(frame, plan.method, b.ranges, turned, false);
         draw_caps(frame, b.ranges, turned);

@@ -23,7 +23,7 @@ enum class MaskIn : std::uint8_t { stencil, alpha, screen };
 // region.
 enum class Count : std::uint8_t { z_pass, z_fail, near_cap, zp_plus, automatic, mixed };
 
-enum class StencilPasses : std::uint8_t { two_sided, culled };  // one pass; two with face culling
+enum class StencilPasses : std::uint8_t { two_sided, culled };  // one pass; one for each facing
 enum class StencilOps : std::uint8_t { wrap, saturate };
 enum class VolumesOf : std::uint8_t { automatic, caster, polygon };
 enum class Arithmetic : std::uint8_t { doubling, maximum };  // of alpha and screen masks

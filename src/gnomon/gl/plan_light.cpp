@@ -164,17 +164,17 @@ Frame within_reach(const Frame& frame, const LightSource& light) {
   if (light.light.w == 0 || !(light.radius > 0)) return frame;
   const Camera& camera = *frame.camera;
   const Vec3 at = Vec3(light.light) / light.light.w;
-  const std::array<Vec3, 8> corners = corners_of({at - light.radius, at + light.radius});
-  const std::optional<Rect> rectangle = rectangle_round(camera, corners);
-  if (!rectangle) return frame;  // the ball's box meets the eye's plane
+  const SceneBox ball{at - light.radius, at + light.radius};
+  const Rect rectangle = rectangle_round(camera, ball);
+  Frame out = frame;
+  out.scissor = frame.scissor ? common(*frame.scissor, rectangle) : rectangle;
   double nearest = kInf, farthest = -kInf;
-  for (const Vec3& corner : corners) {
+  for (const Vec3& corner : corners_of(ball)) {
     const Vec4 p = camera.clip * point(corner);
+    if (!(p.w > 0)) return out;  // the ball's box meets the eye's plane: no bound of depths
     nearest = std::min(nearest, p.z / p.w);
     farthest = std::max(farthest, p.z / p.w);
   }
-  Frame out = frame;
-  out.scissor = frame.scissor ? common(*frame.scissor, *rectangle) : *rectangle;
   constexpr double kSteps = 0x1p-22;  // a few steps of 24 bits
   out.depth_bounds = {std::clamp(nearest / 2 + 0.5 - kSteps, 0.0, 1.0),
                       std::clamp(farthest / 2 + 0.5 + kSteps, 0.0, 1.0)};

@@ -361,7 +361,7 @@ Result<FrameStats> Renderer::draw(const Camera& camera, std::span<const LightSou
   const Target& picture = *state_->picture;
   clear(frame, picture, options.background);
   const SceneBox seen = receivers_of(frame);
-  if (seen.lo.x <= seen.hi.x) frame.scissor = rectangle_round(camera, corners_of(seen));
+  if (seen.lo.x <= seen.hi.x) frame.scissor = rectangle_round(camera, seen);
   Result<bool> drawn = true;
   const Shadows shadows = lights.empty()  ? Shadows::lights
                           : plans.empty() ? Shadows::none

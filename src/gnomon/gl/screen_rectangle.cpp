@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -10,6 +11,7 @@
 namespace gnomon::gl {
 namespace {
 
+constexpr double kInf = std::numeric_limits<double>::infinity();
 constexpr double kSlack = 1.001;  // far above rounding; it only makes rectangles larger
 
 // First and last pixel of a coordinate -1 .. 1, and one more on each side.
@@ -34,19 +36,41 @@ std::array<Vec3, 8> corners_of(const SceneBox& b) {
   return out;
 }
 
-std::optional<Rect> rectangle_round(const Camera& camera, std::span<const Vec3> points) {
-  if (points.empty()) return Rect{0, 0, 0, 0};
-  glm::dvec2 lo(0), hi(0);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Vec4 p = camera.clip * point(points[i]);
-    if (!(p.w > 0)) return {};
-    const glm::dvec2 on_screen = glm::dvec2(p) / p.w;
-    lo = i == 0 ? on_screen : glm::min(lo, on_screen);
-    hi = i == 0 ? on_screen : glm::max(hi, on_screen);
+Rect rectangle_round(const Camera& camera, std::span<const Vec4> points) {
+  std::array<Vec4, kMostPoints> before, behind;
+  int n_before = 0, n_behind = 0;
+  for (const Vec4& p : points) {
+    const Vec4 clip = camera.clip * p;
+    (clip.w > 0 ? before[n_before++] : behind[n_behind++]) = clip;
   }
+  glm::dvec2 lo(kInf), hi(-kInf);
+  for (int i = 0; i < n_before; ++i) {
+    const Vec4& p = before[i];
+    const glm::dvec2 on_screen = glm::dvec2(p) / p.w;
+    lo = glm::min(lo, on_screen);
+    hi = glm::max(hi, on_screen);
+    // Towards a point behind the eye the picture leaves the screen, on the side where the segment
+    // meets the eye's plane.
+    for (int k = 0; k < n_behind; ++k) {
+      const Vec4& q = behind[k];
+      const glm::dvec2 side = glm::dvec2(q) * p.w - glm::dvec2(p) * q.w;
+      for (int axis = 0; axis < 2; ++axis) {
+        if (side[axis] <= 0) lo[axis] = -kInf;
+        if (side[axis] >= 0) hi[axis] = kInf;
+      }
+    }
+  }
+  if (n_before == 0) return {0, 0, 0, 0};
   const Span x = pixels(lo.x, hi.x, camera.width), y = pixels(lo.y, hi.y, camera.height);
-  if (x.first >= x.end || y.first >= y.end) return Rect{0, 0, 0, 0};
-  return Rect{x.first, y.first, x.end - x.first, y.end - y.first};
+  if (x.first >= x.end || y.first >= y.end) return {0, 0, 0, 0};
+  return {x.first, y.first, x.end - x.first, y.end - y.first};
+}
+
+Rect rectangle_round(const Camera& camera, const SceneBox& box) {
+  std::array<Vec4, 8> points;
+  const std::array<Vec3, 8> corners = corners_of(box);
+  for (int i = 0; i < 8; ++i) points[i] = point(corners[i]);
+  return rectangle_round(camera, points);
 }
 
 std::optional<Rect> shadow_rectangle(const Camera& camera, const Light& light,
@@ -64,11 +88,21 @@ std::optional<Rect> shadow_rectangle(const Camera& camera, const Light& light,
     reach = kSlack *
             glm::distance(glm::min(caster.lo, receivers.lo), glm::max(caster.hi, receivers.hi));
   }
-  std::array<Vec3, 16> hull;
+  std::array<Vec4, 16> hull;
   const std::array<Vec3, 8> corners = corners_of(caster);
   for (int i = 0; i < 8; ++i) {
-    hull[i] = corners[i];
-    hull[8 + i] = lamp ? at + reach * (corners[i] - at) : corners[i] + reach * at;
+    hull[i] = point(corners[i]);
+    hull[8 + i] = point(lamp ? at + reach * (corners[i] - at) : corners[i] + reach * at);
+  }
+  return rectangle_round(camera, hull);
+}
+
+Rect endless_rectangle(const Camera& camera, const Light& light, const SceneBox& caster) {
+  std::array<Vec4, 16> hull;
+  const std::array<Vec3, 8> corners = corners_of(caster);
+  for (int i = 0; i < 8; ++i) {
+    hull[i] = point(corners[i]);
+    hull[8 + i] = Vec4(corners[i] * light.w - Vec3(light), 0);
   }
   return rectangle_round(camera, hull);
 }

@@ -16,12 +16,14 @@ struct SceneBox {
 };
 std::array<Vec3, 8> corners_of(const SceneBox& box);
 
-// Pixels that see a point of the convex hull of `points` (scene coordinates), and one more on each
-// side; {0, 0, 0, 0}: none does. Nothing: no bound is known, as some are not before the eye.
-std::optional<Rect> rectangle_round(const Camera& camera, std::span<const Vec3> points);
+// Pixels that see a point of the convex hull of at most kMostPoints `points` (scene coordinates; w
+// = 0: at infinity), and one more on each side; {0, 0, 0, 0}: none does.
+inline constexpr int kMostPoints = 16;
+Rect rectangle_round(const Camera& camera, std::span<const Vec4> points);
+Rect rectangle_round(const Camera& camera, const SceneBox& box);
 
-// Pixels that see a point of `receivers` in the shadow of `caster`, likewise. Nothing, too, where
-// the light is in the caster's box.
+// Pixels that see a point of `receivers` in the shadow of `caster`, likewise. Nothing: the light is
+// in the caster's box, and no bound is known.
 //
 // Proof: a point X = L + u (C - L), u >= 1, C in the caster's box, is outside of the receivers' box
 // once u |C - L| is more than the farthest of its corners is from L, so for all u > s = that over
@@ -30,6 +32,9 @@ std::optional<Rect> rectangle_round(const Camera& camera, std::span<const Vec3> 
 // both.
 std::optional<Rect> shadow_rectangle(const Camera& camera, const Light& light,
                                      const SceneBox& caster, const SceneBox& receivers);
+
+// Pixels that see a point of the shadow of `caster`, however far away.
+Rect endless_rectangle(const Camera& camera, const Light& light, const SceneBox& caster);
 
 // What both cover.
 Rect common(const Rect& a, const Rect& b);

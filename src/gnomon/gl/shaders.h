@@ -19,6 +19,9 @@ uniform mat4 u_project;
 uniform mat4 u_inside;
 out vec4 v_inside;
 #endif
+#ifdef FROM_NEAR
+out float v_near;
+#endif
 invariant gl_Position;
 void main() {
 #if defined(SHADER)
@@ -33,20 +36,38 @@ void main() {
 #ifdef INSIDE
   v_inside = u_inside * p;
 #endif
+#ifdef FROM_NEAR
+  v_near = gl_Position.z + gl_Position.w;
+#endif
 }
 )";
 
+// FACES: one colour for front faces, another for back faces.
 inline constexpr const char* kColourFragment = R"(
+#ifdef FACES
+uniform vec4 u_front_colour, u_back_colour;
+#else
 uniform vec4 u_colour;
+#endif
 out vec4 o_colour;
 #ifdef INSIDE
 in vec4 v_inside;
+#endif
+#ifdef FROM_NEAR
+in float v_near;
 #endif
 void main() {
 #ifdef INSIDE
   if (any(greaterThan(abs(v_inside.xyz), vec3(v_inside.w)))) discard;
 #endif
+#ifdef FROM_NEAR
+  if (v_near < 0.0) discard;
+#endif
+#ifdef FACES
+  o_colour = gl_FrontFacing ? u_front_colour : u_back_colour;
+#else
   o_colour = u_colour;
+#endif
 }
 )";
 

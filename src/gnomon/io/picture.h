@@ -22,6 +22,15 @@ struct Picture {
   std::vector<Rgb> pixels;
 };
 
+// Of four bytes a pixel: red, green, blue, and one that is left out.
+inline Picture picture_of_rgba(int width, int height, std::span<const std::uint8_t> rgba) {
+  Picture out{width, height, {}};
+  out.pixels.reserve(rgba.size() / 4);
+  for (std::size_t i = 0; i + 3 < rgba.size(); i += 4)
+    out.pixels.push_back({rgba[i], rgba[i + 1], rgba[i + 2]});
+  return out;
+}
+
 inline Rgb& at(Picture& p, int x, int y) {
   return p.pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(p.width) +
                   static_cast<std::size_t>(x)];
