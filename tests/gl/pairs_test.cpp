@@ -278,9 +278,9 @@ TEST(Grazing, MovesNoSidesButThoseOfWhatIsGrazed) {
 // share, and that lies in one group's prism before a sample by rounding, must cancel with the other
 // group's.
 TEST(Groups, OfPolygonsAreTheMaskOfTheWhole) {
-  TriMesh ground = rolling_ground(8);
+  TriMesh ground = rolling_ground(4);
   for (std::size_t k = 0; k < ground.positions.size(); ++k) {  // flat, with trees
-    const bool tree = k % 11 < 4 && k / 257 % 7 < 3;
+    const bool tree = k % 11 < 4 && k / 129 % 7 < 3;
     ground.positions[k].z = tree ? 3 + 0.37 * double(k % 13) : 0;
   }
   add_folded_strip(ground, 0.0005);  // so many layers that they must be counted in groups
