@@ -33,6 +33,7 @@ struct Options {
   bool all = false;
   std::string only;
   int polygons = 5000;
+  int most = 0;  // combinations a picture; 0: as many as it takes
 };
 
 // Sums over all pictures of the methods that share a bound.
@@ -123,7 +124,9 @@ void verify_light(const Stage& stage, const std::string& where, const Cameras& c
     const gl::MaskBound b = gl::bound_of(m);
     return compare_masks(exact, mask, {cameras.of(m).clip}, {b.edge, b.steps, b.pixels});
   };
-  while (const std::optional<gl::Method> next = pairs.next()) {
+  for (int drawn_here = 0; stage.o.most == 0 || drawn_here < stage.o.most;) {
+    const std::optional<gl::Method> next = pairs.next();
+    if (!next) break;
     const gl::Method& m = *next;
     if (words_of(m).find(stage.o.only) == std::string::npos) {
       pairs.skipped();
@@ -148,6 +151,7 @@ void verify_light(const Stage& stage, const std::string& where, const Cameras& c
       continue;
     }
     pairs.drawn();
+    ++drawn_here;
     ++totals.combinations;
     const Geometry same{&camera, m.reach, m.primitives};
     if (!stencil.contains(same) && !gl::bound_of(m).same_as_stencil) {
@@ -293,6 +297,12 @@ void add_verify_gl(CLI::App& app) {
   command
       ->add_option("--polygons", o.polygons,
                    "Models of more triangles are not drawn polygon by polygon in alpha and screen")
+      ->capture_default_str();
+  command
+      ->add_option("--most", o.most,
+                   "At most so many combinations a view and light, those first that have the most "
+                   "new pairs of choices (0: all that it takes)")
+      ->check(CLI::Range(0, 1000000))
       ->capture_default_str();
   command->add_option("--api", o.api, "gl (OpenGL 3.3) or gles (OpenGL ES 3.0)")
       ->check(CLI::IsMember({"gl", "gles"}))

@@ -216,20 +216,44 @@ TEST(Edges, SamplesOnThemAreToldApart) {
   }
 }
 
-// A low sun over rolling ground, whose sides make small angles with what they fall on: where it
-// grazes one small triangle, the shadows elsewhere must stay where they are.
-TEST(Grazing, MovesNoSidesButThoseOfWhatIsGrazed) {
+// 340 layers, each `rise` above the one before.
+void add_folded_strip(TriMesh& m, double rise) {
+  constexpr int kFolds = 340;  // modulo 128 more than half of it: a group that holds all is lit
+  const auto first = static_cast<std::uint32_t>(m.positions.size());
+  for (int k = 0; k <= kFolds; ++k) {
+    const double x = k % 2 == 0 ? -3 : 3;
+    m.positions.insert(m.positions.end(), {Vec3(x, -3, 8 + rise * k), Vec3(x, 3, 8 + rise * k)});
+  }
+  for (std::uint32_t k = 0; k < kFolds; ++k) {
+    const std::uint32_t a = first + 2 * k;
+    m.triangles.insert(m.triangles.end(), {{a, a + 1, a + 2}, {a + 2, a + 1, a + 3}});
+  }
+}
+
+// Ground of 32 x 32 metres, `fine` x `fine` cells a square metre, two triangles each.
+TriMesh rolling_ground(int fine) {
   TriMesh m;
-  constexpr int kCells = 32;
-  const auto height = [](int i, int j) { return 0.4 * std::sin(i * 1.1) * std::cos(j * 0.9); };
-  for (int j = 0; j <= kCells; ++j)
-    for (int i = 0; i <= kCells; ++i) m.positions.push_back(Vec3(i - 16, j - 16, height(i, j)));
-  for (std::uint32_t j = 0; j < kCells; ++j) {
-    for (std::uint32_t i = 0; i < kCells; ++i) {
-      const std::uint32_t a = j * (kCells + 1) + i, c = a + kCells + 1;
+  const int cells = 32 * fine;
+  const auto height = [&](int i, int j) {
+    return 0.4 * std::sin(i * 1.1 / fine) * std::cos(j * 0.9 / fine);
+  };
+  for (int j = 0; j <= cells; ++j)
+    for (int i = 0; i <= cells; ++i)
+      m.positions.push_back(Vec3(double(i) / fine - 16, double(j) / fine - 16, height(i, j)));
+  const auto n = static_cast<std::uint32_t>(cells);
+  for (std::uint32_t j = 0; j < n; ++j) {
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const std::uint32_t a = j * (n + 1) + i, c = a + n + 1;
       m.triangles.insert(m.triangles.end(), {{a, a + 1, c}, {c, a + 1, c + 1}});
     }
   }
+  return m;
+}
+
+// A low sun over rolling ground, whose sides make small angles with what they fall on: where it
+// grazes one small triangle, the shadows elsewhere must stay where they are.
+TEST(Grazing, MovesNoSidesButThoseOfWhatIsGrazed) {
+  TriMesh m = rolling_ground(1);
   const Light sun(1, 0.5, 0.0625, 0);
   const auto first = static_cast<std::uint32_t>(m.positions.size());
   const Vec3 corner(-14, 14, 1);
@@ -248,6 +272,35 @@ TEST(Grazing, MovesNoSidesButThoseOfWhatIsGrazed) {
             .pixels,
         3);
   }
+}
+
+// Prisms of a flat ground with trees, far smaller than pixels, in groups: a side that two of them
+// share, and that lies in one group's prism before a sample by rounding, must cancel with the other
+// group's.
+TEST(Groups, OfPolygonsAreTheMaskOfTheWhole) {
+  TriMesh ground = rolling_ground(4);
+  for (std::size_t k = 0; k < ground.positions.size(); ++k) {  // flat, with trees
+    const bool tree = k % 11 < 4 && k / 129 % 7 < 3;
+    ground.positions[k].z = tree ? 3 + 0.37 * double(k % 13) : 0;
+  }
+  add_folded_strip(ground, 0.0005);  // so many layers that they must be counted in groups
+  const Scene scene = test::scene_of(std::move(ground));
+
+  const View view = plan_view({-16, -16, 16, 16}, 0.5, 0);
+  Stage stage = stage_of(scene);
+  const Camera camera = camera_of(view, depth_range(scene, view, false));
+  const Light sun(0.955, -0.292, 0.0523, 0);
+  Method m;
+  m.reach = Reach::infinite;
+  m.passes = StencilPasses::culled;
+  m.count = Count::z_fail;
+  const ShadowMask whole = stage.renderer.mask(camera, sun, m).value();
+  m.volumes = VolumesOf::polygon;
+  m.ops = StencilOps::saturate;
+  FrameStats stats;
+  const ShadowMask grouped = stage.renderer.mask(camera, sun, m, &stats).value();
+  EXPECT_GT(stats.stencil_groups, 1);
+  EXPECT_EQ(count_different(grouped, whole), 0);
 }
 
 // A wall that leans back a little under an eave, which shades it: the side over the edge between
@@ -275,16 +328,7 @@ TEST(Grazing, WallThatLeansBackUnderAnEaveIsInItsShadow) {
 TEST(Mixed, CountsARegionOfMoreLayersThanTheStencilHolds) {
   TriMesh m;
   test::add_ground(m, 40);
-  constexpr int kFolds = 340;  // modulo 128 more than half of it: a group that holds all is lit
-  const auto first = static_cast<std::uint32_t>(m.positions.size());
-  for (int k = 0; k <= kFolds; ++k) {
-    const double x = k % 2 == 0 ? -3 : 3;
-    m.positions.insert(m.positions.end(), {Vec3(x, -3, 8 + 0.01 * k), Vec3(x, 3, 8 + 0.01 * k)});
-  }
-  for (std::uint32_t k = 0; k < kFolds; ++k) {
-    const std::uint32_t a = first + 2 * k;
-    m.triangles.insert(m.triangles.end(), {{a, a + 1, a + 2}, {a + 2, a + 1, a + 3}});
-  }
+  add_folded_strip(m, 0.01);
   const Scene scene = test::scene_of(std::move(m));
   const View view = perspective_view({-2, 0, 4}, {10, 0, 0}, {0, 0, 1}, 1.2, 64, 48);
   const Camera camera = camera_of(view, depth_range(scene, view, true));

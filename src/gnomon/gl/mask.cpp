@@ -36,10 +36,12 @@ struct Batch {
 
 // Counts that fit. One that wraps, up to kWrapLayers, which the grid of layer_bound() proves; one
 // that saturates counts from 0 up to 255 faces, and is looked through for that. Where neither fits,
-// groups of volumes are counted one after the other in seven bits from 64, and the eighth keeps
-// what any group shaded.
-constexpr int kGroupMiddle = 64, kGroupLayers = 63;
+// groups of volumes are counted one after the other in seven bits from 32. Between groups a count
+// that reaches 64 goes to the eighth bit and starts anew; smaller ones go on, so that a side that
+// volumes of two groups share, counted to rounding on the wrong side of a sample, still cancels.
+constexpr int kGroupMiddle = 32, kGroupFull = 64, kGroupLayers = 63;
 constexpr GLuint kGroupBits = 0x7f, kShadedBit = 0x80;
+static_assert(kGroupFull - 1 + kGroupLayers <= int(kGroupBits));
 
 bool starts_at_near_plane(const Method& m) {
   return m.count == Count::near_cap || m.count == Count::zp_plus;
@@ -466,23 +468,26 @@ LitTest count_in_stencil(const Frame& frame, const LightPlan& plan, Prepared& pr
   groups = batches_of(frame, prepared);
   frame.stats->stencil_groups = static_cast<int>(groups.size());
   clear_stencil(frame, kGroupMiddle);
-  for (const std::vector<Batch>& batches : groups) {
-    count_group(frame, plan, plan.method, batches, true);
-    Pass keep;  // where the group's count is above the middle, the shaded bit is set
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    count_group(frame, plan, plan.method, groups[k], true);
+    const bool last = k + 1 == groups.size();
+    Pass keep;  // where the count is far above the middle (at the end: above it), the shaded bit
     keep.depth_test = false;
     keep.stencil_test = true;
-    keep.stencil_func = GL_LESS;
-    keep.stencil_ref = kGroupMiddle | static_cast<GLint>(kShadedBit);
-    keep.stencil_read = kGroupBits;
+    keep.stencil_func = last ? GL_LESS : GL_EQUAL;
+    keep.stencil_ref = (last ? kGroupMiddle : kGroupFull) | static_cast<GLint>(kShadedBit);
+    keep.stencil_read = last ? kGroupBits : kGroupFull;
     keep.stencil_write = kShadedBit;
     keep.front.depth_pass = keep.back.depth_pass = GL_REPLACE;
     draw_rectangle(frame, keep, glm::vec4(0));
-    Pass restart = keep;
-    restart.stencil_func = GL_ALWAYS;
+    ++frame.stats->other_rectangles;
+    if (last) break;
+    Pass restart = keep;  // and only there the count starts anew
+    restart.stencil_func = GL_NOTEQUAL;
     restart.stencil_ref = kGroupMiddle;
     restart.stencil_write = kGroupBits;
     draw_rectangle(frame, restart, glm::vec4(0));
-    frame.stats->other_rectangles += 2;
+    ++frame.stats->other_rectangles;
   }
   return {GL_GEQUAL, 0, kShadedBit, GL_INVERT, kShadedBit};
 }
