@@ -174,5 +174,49 @@ TEST(Lights, LampsShineInParallelViewsThatReachBelowTheGround) {
   EXPECT_LE(compare(mask.value(), exact_mask(scene, lamp, view)).pixels, 19);
 }
 
+// Half floats hold 14 shadows over each other, bytes any number of convex casters' ones.
+TEST(Lights, FiveTakeAsManyShadowsOverEachOtherAsFour) {
+  TriMesh mesh;
+  test::add_box(mesh, {-20, -20, -1}, {20, 20, 0});
+  for (int k = 0; k < 18; ++k) test::add_box(mesh, {-2, -2, 2 + 0.5 * k}, {2, 2, 2.2 + 0.5 * k});
+  Stage stage = stage_of(test::scene_of(std::move(mesh)));
+  const Camera camera = camera_of(aerial(160, 120), {.near_plane = 1});
+  for (const int n : {4, 5}) {
+    std::vector<LightSource> lights;
+    for (int k = 0; k < n; ++k) {
+      LightSource sun;
+      sun.light = Light(0.1 * k, 0.05, 1, 0);
+      sun.colour = Vec3(0.1);
+      lights.push_back(sun);
+    }
+    Method alpha;
+    alpha.mask = MaskIn::alpha;
+    EXPECT_LE(largest_difference(picture(stage.renderer, camera, lights, alpha),
+                                 picture(stage.renderer, camera, lights, {})),
+              n);
+  }
+}
+
+// Bilinear filtering reads texels beyond what receives; they are lit, not unknown.
+TEST(Lights, LowMasksOfALitRectangleAreLitUpToItsRim) {
+  TriMesh mesh;
+  test::add_quad(mesh, {-5, 0, -4}, {5, 0, -4}, {5, 0, 4}, {-5, 0, 4});
+  Stage stage = stage_of(test::scene_of(std::move(mesh)));
+  LightSource sun;
+  sun.light = Light(0.1, -1, 0.2, 0);
+  for (const int width : {160, 161, 97}) {
+    for (const double scale : {0.5, 0.25, 0.125}) {
+      const View view = perspective_view({0, -20, 0}, {0, 0, 0}, {0, 0, 1}, 0.8, width, width - 41);
+      const Camera camera = camera_of(view, {.near_plane = 1});
+      Method low;
+      low.mask_scale = scale;
+      EXPECT_LE(largest_difference(picture(stage.renderer, camera, {sun}, low),
+                                   picture(stage.renderer, camera, {sun}, {})),
+                1)
+          << width << ", " << scale;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace gnomon::gl

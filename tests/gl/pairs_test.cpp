@@ -159,6 +159,59 @@ TEST(Scissor, CutsVolumesToWhatTheyShadeAndLeavesOutThoseThatShadeNothingSeen) {
   }
 }
 
+// The bounding plane may lie on the eye's side of the near plane: a dark cap in it lies before all
+// that is seen, and with depth clamp nothing cuts it away.
+TEST(Reach, DarkCapsBeforeTheNearPlaneCountNothing) {
+  TriMesh mesh;
+  test::add_ground(mesh, 20);
+  test::add_box(mesh, {2, -3, 0}, {4, 3, 5});
+  test::add_box(mesh, {-6, -2, 8}, {0, 2, 10});
+  const Scene scene = test::scene_of(std::move(mesh));
+  Stage stage = stage_of(scene);
+  for (const bool parallel : {false, true}) {
+    for (const Light& sun : {Light(-1, -0.3, -0.2, 0), Light(-1, 0.2, 0.1, 0)}) {
+      const Vec3 eye(30, 2, 2), target(0, 0, 3), up(0, 0, 1);
+      const View view = parallel ? orthographic_view(eye, target, up, 40, 240, 180)
+                                 : perspective_view(eye, target, up, 0.8, 240, 180);
+      const Camera camera = camera_of(view, depth_range(scene, view, !parallel));
+      Method m;
+      m.far_plane = FarPlane::clamp;
+      for (const Count count : {Count::automatic, Count::z_fail}) {
+        m.count = count;
+        const Result<ShadowMask> mask = stage.renderer.mask(camera, sun, m);
+        ASSERT_TRUE(mask) << mask.error().message;
+        EXPECT_LE(compare(mask.value(), exact_mask(scene, sun, view)).pixels, 10)
+            << parallel << " " << sun.z << ": " << describe(m);
+      }
+    }
+  }
+}
+
+// A box before the near plane of a parallel view: its cap there must not cancel another's shadow.
+TEST(NearPlane, OfAParallelViewMayLieBehindACaster) {
+  TriMesh seen;
+  test::add_ground(seen, 20);
+  test::add_box(seen, {2, -3, 0}, {4, 3, 5});
+  TriMesh all = seen;
+  test::add_box(all, {-6, -2, 50}, {0, 2, 52});
+  const Scene scene = test::scene_of(std::move(seen));
+  const View view = orthographic_view({0, -0.5, 60}, {0, 0, 0}, {0, 1, 0}, 20, 160, 120);
+  const Light sun(1, 0, 0.5, 0);
+  const Camera camera = camera_of(view, depth_range(scene, view, false));
+  const ShadowMask exact = exact_mask(scene, sun, view);
+  Stage stage = stage_of(test::scene_of(std::move(all)));
+  for (const Count count : {Count::automatic, Count::z_pass, Count::z_fail, Count::mixed}) {
+    for (const Reach reach : {Reach::infinite, Reach::bounded}) {
+      Method m;
+      m.count = count;
+      m.reach = reach;
+      const Result<ShadowMask> mask = stage.renderer.mask(camera, sun, m);
+      if (!mask) continue;
+      EXPECT_LE(compare(mask.value(), exact).pixels, 4) << describe(m);
+    }
+  }
+}
+
 // A plate shades the eye but not the near rectangle: its side passes between them.
 TEST(NearPlane, SidesBeforeItAreNotCountedWithDepthClamp) {
   TriMesh m;

@@ -407,6 +407,38 @@ TEST(DrawMask, ShadesWhatWasNotAdded) {
   EXPECT_NEAR(double(std::count(lit.begin(), lit.end(), 0)), double(shadow), 5);
 }
 
+TEST(DrawMask, CountsAnewAfterAPictureWithoutLights) {
+  const TriMesh mesh = boxes_on_ground();
+  Stage stage = stage_of(test::scene_of(mesh));
+  const Engine engine(mesh);
+  const Camera camera = camera_of(aerial(kSize, kSize), {.near_plane = 1});
+  const Light lamp(5, -4, 15, 1);
+  std::vector<std::vector<std::uint8_t>> lit;
+  for (const bool after : {false, true}) {
+    if (after) (void)stage.renderer.draw(camera, {}, {}).value();
+    engine.draw_depths(stage.renderer.clip_of(0, camera));
+    glClearStencil(200);
+    glClear(GL_STENCIL_BUFFER_BIT);
+    lit.push_back(engine.lit(stage.renderer.draw_mask(camera, lamp, {}).value()));
+  }
+  EXPECT_EQ(lit[0], lit[1]);
+}
+
+TEST(DrawMask, KeepsTheVolumesOfEachNumberedLight) {
+  const TriMesh mesh = boxes_on_ground();
+  Stage stage = stage_of(test::scene_of(mesh));
+  const Engine engine(mesh);
+  const Camera camera = camera_of(aerial(kSize, kSize), {.near_plane = 1});
+  for (int frame = 0; frame < 3; ++frame) {
+    for (const std::uint32_t k : {0u, 1u}) {
+      engine.draw_depths(stage.renderer.clip_of(0, camera));
+      const Light lamp(k == 0 ? 5 : -5, 4, 15, 1);
+      const FrameStats stats = stage.renderer.draw_mask(camera, lamp, {}, k).value();
+      EXPECT_EQ(stats.rebuilt, frame == 0 ? 1 : 0);
+    }
+  }
+}
+
 TEST(DrawMask, RefusesClipSpacesThatAreNotOpenGLsUsualOne) {
   const TriMesh mesh = one_box();
   Stage stage = stage_of(test::scene_of(mesh));

@@ -49,18 +49,16 @@ bool starts_at_near_plane(const Method& m) {
 
 // With depth clamp no side is cut by the near or far plane, however it is counted: a cut one has
 // other corners, and z-pass and z-fail would differ where these are rounded. z-pass then leaves out
-// what lies before the near plane, where it starts to count. In a parallel view a sun's may as well
-// start at infinity, where nothing is in shadow.
-bool leaves_out_before_near(const Frame& frame, const LightPlan& plan, bool z_fail) {
-  const Method& m = plan.method;
-  const bool nothing_before = frame.camera->eye.w == 0 && plan.light.w == 0 && !m.unchecked;
-  return !z_fail && m.far_plane == FarPlane::clamp && (starts_at_near_plane(m) || !nothing_before);
+// what lies before the near plane, where it starts to count, and z-fail does where it counts dark
+// caps without a depth test: a bounding plane may lie on the eye's side.
+bool leaves_out_before_near(const Method& m, bool z_fail) {
+  return m.far_plane == FarPlane::clamp && (!z_fail || m.reach == Reach::bounded);
 }
 
 GLuint volume_program(const Frame& frame, const LightPlan& plan, bool z_fail) {
   const Programs& programs = frame.state->programs;
   const auto form = static_cast<std::size_t>(plan.method.extrusion);
-  return leaves_out_before_near(frame, plan, z_fail) ? programs.volume_from_near[form].id()
+  return leaves_out_before_near(plan.method, z_fail) ? programs.volume_from_near[form].id()
                                                      : programs.volume[form].id();
 }
 
@@ -116,7 +114,7 @@ void draw_faces(const Frame& frame, const Method& m, const Batch& b, const Pass&
     draw_range(frame, caps);
     const IndexRange& dark = b.ranges[turned ? kDarkCapTurned : kDarkCap];
     if (dark.count == 0) return;
-    // It lies behind everything, whatever the rounding of depths: z-pass does not draw it.
+    // From the near plane on it lies behind everything, whatever the rounding of depths.
     Pass behind = pass;
     behind.depth_func = pass.stencil_test ? GL_NEVER : GL_ALWAYS;
     apply(behind, frame);
@@ -203,7 +201,8 @@ constexpr double kScissorSaves = 1.0 / 16;
 
 void find_rectangles(const Frame& frame, const LightPlan& plan, InstanceVolumes& v) {
   const Camera& camera = *frame.camera;
-  const Rect whole = frame.scissor.value_or(Rect{0, 0, camera.width, camera.height});
+  const auto [width, height] = mask_size(camera, plan.method.mask_scale);
+  const Rect whole{0, 0, camera.width, camera.height};
   const auto area = [&](const Rect& r) {
     const Rect seen = common(whole, r);
     return double(seen.width) * seen.height;
@@ -218,7 +217,7 @@ void find_rectangles(const Frame& frame, const LightPlan& plan, InstanceVolumes&
     if (r && r->width > 0 &&
         area(endless_rectangle(camera, plan.light, box)) - area(*r) <= kScissorSaves * area(whole))
       r.reset();
-    if (r && plan.method.mask_scale < 1) r = scaled(*r, plan.method.mask_scale);
+    if (r) r = scaled(*r, camera, width, height);
     v.rectangles.push_back(r);
   }
 }
@@ -285,7 +284,6 @@ void append_batches(const Frame& frame, std::vector<Batch>& to, const InstanceVo
 
 // All volumes, each instance's z-fail and z-pass ones at once; or in groups of few layers.
 std::vector<std::vector<Batch>> batches_of(const Frame& frame, const Prepared& prepared) {
-  frame.stats->scissored_volumes = frame.stats->culled_volumes = 0;
   std::vector<std::vector<Batch>> groups(1);
   std::uint32_t layers = 0;
   for (const InstanceVolumes& v : prepared.all) {
@@ -447,6 +445,7 @@ bool count_saturating(const Frame& frame, const LightPlan& plan,
 }
 
 LitTest count_in_stencil(const Frame& frame, const LightPlan& plan, Prepared& prepared) {
+  const FrameStats before = *frame.stats;
   auto groups = batches_of(frame, prepared);
   frame.stats->stencil_groups = 1;
   const bool wraps = prepared.layers <= kWrapLayers;
@@ -464,6 +463,8 @@ LitTest count_in_stencil(const Frame& frame, const LightPlan& plan, Prepared& pr
     return {GL_GEQUAL, kWrapMiddle, 0xff, GL_INCR, 0xff};
   }
   prepared.grouped = true;
+  frame.stats->scissored_volumes = before.scissored_volumes;
+  frame.stats->culled_volumes = before.culled_volumes;
   update_all_lists(frame, plan, prepared);
   groups = batches_of(frame, prepared);
   frame.stats->stencil_groups = static_cast<int>(groups.size());
@@ -494,13 +495,11 @@ LitTest count_in_stencil(const Frame& frame, const LightPlan& plan, Prepared& pr
 
 // --- alpha and screen ------------------------------------------------------------------------
 
-struct Blend {
-  GLenum source, destination;
-  float brightness;
-  float neutral;  // changes nothing
-};
-constexpr Blend kDouble{GL_DST_COLOR, GL_ONE, 1.0f, 0.0f};
-constexpr Blend kHalve{GL_DST_COLOR, GL_ZERO, 0.5f, 1.0f};
+// Doubles by brightness 1. The volumes' faces double and halve at once: 2 x brightness x what is
+// there.
+constexpr GLenum kDoubleSource = GL_DST_COLOR, kDoubleDestination = GL_ONE;
+constexpr GLenum kFaceSource = GL_DST_COLOR, kFaceDestination = GL_SRC_COLOR;
+constexpr float kDoubles = 1.0f, kHalves = 0.25f;
 
 // The maximum variant in eight bits begins so many doublings below the clamp: where rounding of
 // depths counts a pixel below 0, it must not be lost there before a shadow brings it back to 0.
@@ -512,11 +511,14 @@ std::array<bool, 4> mask_channels(const Method& m) {
   return {true, true, true, true};
 }
 
-// One volume after the other: what enters first, then what leaves, so that the clamp at 1 (maximum:
-// the eight bits) loses nothing (Roettger et al., 4.2; docs/methods.md).
+// One volume after the other (Roettger et al., 4.2), but entering and leaving faces in one pass: a
+// ray crosses at most one of each where eight bits are counted in, and there, from 1/4, 1/2 or 1,
+// halving and doubling in either order are exact, but for what the clamp at 1 loses when what
+// enters comes first, which stays a shadow.
 void count_by_blending(const Frame& frame, const LightPlan& plan, const Prepared& prepared) {
   const Method& m = plan.method;
   const bool doubling = m.arithmetic == Arithmetic::doubling;
+  const float enters = doubling ? kDoubles : kHalves, leaves = doubling ? kHalves : kDoubles;
   for (const InstanceVolumes& v : prepared.all) {
     for (std::size_t k = 0; k < v.volumes->lists.volumes.size(); ++k) {
       const bool z_fail = k < v.volumes->z_fail_volumes;
@@ -525,32 +527,31 @@ void count_by_blending(const Frame& frame, const LightPlan& plan, const Prepared
       if (scissor)
         ++(scissor->width == 0 ? frame.stats->culled_volumes : frame.stats->scissored_volumes);
       if (scissor && scissor->width == 0) continue;
-      for (const bool first : {true, false}) {
-        const Blend& blend = first == doubling ? kDouble : kHalve;
-        Pass p;
-        p.depth_func = z_fail ? GL_GEQUAL : GL_LESS;
-        p.depth_clamp = m.far_plane == FarPlane::clamp;
-        p.blend = true;
-        p.source = blend.source;
-        p.destination = blend.destination;
-        p.colour = mask_channels(m);
-        p.scissor = scissor;
-        if (starts_at_near_plane(m) && (first || m.count == Count::near_cap)) {
-          p.cull = first ? GL_BACK : GL_FRONT;  // slivers of a near cap that are turned leave
-          draw_near_start(frame, plan, b, p, blend.brightness);
-        }
-        const GLuint program = volume_program(frame, plan, z_fail);
-        use_volumes(frame, v, program);
-        p.cull = GL_NONE;  // faces go by gl_FrontFacing: see stencil_pass()
-        for (const bool turned : {false, true}) {
-          if (!any(b.ranges, turned)) continue;
-          // z-pass: entering faces first. z-fail: leaving faces first.
-          const bool front = (first != z_fail) != turned;
-          set(program, "u_front_colour", glm::vec4(front ? blend.brightness : blend.neutral));
-          set(program, "u_back_colour", glm::vec4(front ? blend.neutral : blend.brightness));
-          apply(p, frame);
-          draw_faces(frame, m, b, p, turned);
-        }
+      Pass p;
+      p.depth_func = z_fail ? GL_GEQUAL : GL_LESS;
+      p.depth_clamp = m.far_plane == FarPlane::clamp;
+      p.blend = true;
+      p.source = kFaceSource;
+      p.destination = kFaceDestination;
+      p.colour = mask_channels(m);
+      p.scissor = scissor;
+      if (starts_at_near_plane(m)) {
+        p.cull = GL_BACK;
+        draw_near_start(frame, plan, b, p, enters);
+        p.cull = GL_FRONT;  // slivers of a near cap that are turned leave
+        if (m.count == Count::near_cap) draw_near_start(frame, plan, b, p, leaves);
+        p.cull = GL_NONE;
+      }
+      const GLuint program = volume_program(frame, plan, z_fail);
+      use_volumes(frame, v, program);
+      apply(p, frame);
+      for (const bool turned : {false, true}) {
+        if (!any(b.ranges, turned)) continue;
+        // z-fail counts behind: what is left counts up there.
+        const bool front_enters = z_fail == turned;
+        set(program, "u_front_colour", glm::vec4(front_enters ? enters : leaves));
+        set(program, "u_back_colour", glm::vec4(front_enters ? leaves : enters));
+        draw_faces(frame, m, b, p, turned);
       }
     }
   }
@@ -619,23 +620,23 @@ void normalise(const Frame& frame, const Method& m) {
   if (m.arithmetic == Arithmetic::maximum) {
     if (m.float_bits == 0) {  // beyond the paper, whose lit is the clamp from the beginning
       for (int k = 0; k < kRoomSteps; ++k)
-        rectangle_blend(frame, m, kDouble.source, kDouble.destination, 1.0f);
+        rectangle_blend(frame, m, kDoubleSource, kDoubleDestination, kDoubles);
       frame.stats->rectangles -= kRoomSteps;
       frame.stats->other_rectangles += kRoomSteps;
     }
     rectangle_blend(frame, m, GL_ONE, GL_ONE, 0.5f, GL_MAX);  // 1/2 in shadow, 1 where lit
     if (!attenuated) {  // beyond the paper: 0 and 1, to add a light
       rectangle_blend(frame, m, GL_ONE, GL_ONE, 0.5f, GL_FUNC_REVERSE_SUBTRACT);
-      rectangle_blend(frame, m, kDouble.source, kDouble.destination, 1.0f);
+      rectangle_blend(frame, m, kDoubleSource, kDoubleDestination, kDoubles);
     }
     return;
   }
-  rectangle_blend(frame, m, kDouble.source, kDouble.destination, 1.0f);
+  rectangle_blend(frame, m, kDoubleSource, kDoubleDestination, kDoubles);
   rectangle_blend(frame, m, GL_ONE_MINUS_DST_COLOR, GL_ZERO, 1.0f);
   if (attenuated) {
     rectangle_blend(frame, m, GL_ONE, GL_ONE, 0.5f);
   } else {
-    rectangle_blend(frame, m, kDouble.source, kDouble.destination, 1.0f);
+    rectangle_blend(frame, m, kDoubleSource, kDoubleDestination, kDoubles);
   }
 }
 
@@ -684,12 +685,11 @@ void count_unlit_receivers(const Frame& frame, const LightPlan& plan, const Prep
         }
         p.front.depth_pass = p.back.depth_pass = prepared.grouped ? GL_REPLACE : GL_INCR;
       } else {
-        const Blend& blend = m.arithmetic == Arithmetic::doubling ? kDouble : kHalve;
         p.blend = true;
-        p.source = blend.source;
-        p.destination = blend.destination;
+        p.source = kFaceSource;
+        p.destination = kFaceDestination;
         p.colour = mask_channels(m);
-        brightness = blend.brightness;
+        brightness = m.arithmetic == Arithmetic::doubling ? kDoubles : kHalves;
       }
       apply(p, frame);
       const GLuint program = frame.state->programs.flat.id();

@@ -8,11 +8,11 @@ namespace {
 // Of a depth buffer of 24 bits: a surface's depth and a side's are rounded to a step each, and
 // before that to floats of 24 bits when corners are put on the screen and when they are
 // interpolated over polygons that reach far out of it.
-// Eight more and slopes over 8/256 pixel are what the renderer moves sides away by where the light
+// Two more and slopes over 1/256 pixel are what the renderer moves sides away by where the light
 // grazes surfaces (mask.cpp).
-constexpr double kSteps = 8 + 8;
+constexpr double kSteps = 8 + 2;
 // Corners are rounded to 1/256 pixel (OpenGL asks for 1/16 at least), of surface and side.
-constexpr double kCorner = (8.0 + 2.0) / 256;
+constexpr double kCorner = (1.0 + 2.0) / 256;
 constexpr double kShare = 0.001;
 constexpr double kLowShare = 0.1;
 // An answer from another place is right half of the time where both states are as frequent.

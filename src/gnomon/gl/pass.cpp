@@ -62,6 +62,10 @@ bool there(In api) { return api == In::every || desktop(); }
 bool has_clip_control() {
   return desktop() && (epoxy_gl_version() >= 45 || epoxy_has_gl_extension("GL_ARB_clip_control"));
 }
+bool has_offset_clamp() {
+  return (desktop() && epoxy_gl_version() >= 46) ||
+         epoxy_has_gl_extension("GL_ARB_polygon_offset_clamp");
+}
 // Colour masks and blending of each draw buffer; functions and equations since 4.0.
 bool has_buffer_masks() { return desktop(); }
 bool has_buffer_functions() { return desktop() && epoxy_gl_version() >= 40; }
@@ -174,7 +178,13 @@ StateGuard::StateGuard(const PassSupport& support, DepthsOf depths) : support_(s
   glGetFloatv(GL_DEPTH_RANGE, depth_range_.data());
   glGetFloatv(GL_COLOR_CLEAR_VALUE, clear_colour_.data());
   glGetBooleanv(GL_DEPTH_WRITEMASK, &depth_write_);
-  glGetFloatv(GL_DEPTH_CLEAR_VALUE, &clear_depth_);
+  if (desktop()) {
+    glGetDoublev(GL_DEPTH_CLEAR_VALUE, &clear_depth_);
+  } else {
+    GLfloat value = 1;
+    glGetFloatv(GL_DEPTH_CLEAR_VALUE, &value);
+    clear_depth_ = value;
+  }
   clear_stencil_ = integer(GL_STENCIL_CLEAR_VALUE);
   depth_test_ = glIsEnabled(GL_DEPTH_TEST);
   stencil_test_ = glIsEnabled(GL_STENCIL_TEST);
@@ -182,6 +192,7 @@ StateGuard::StateGuard(const PassSupport& support, DepthsOf depths) : support_(s
   scissor_test_ = glIsEnabled(GL_SCISSOR_TEST);
   glGetFloatv(GL_POLYGON_OFFSET_FACTOR, &offset_factor_);
   glGetFloatv(GL_POLYGON_OFFSET_UNITS, &offset_units_);
+  if (has_offset_clamp()) glGetFloatv(GL_POLYGON_OFFSET_CLAMP, &offset_clamp_);
   restart_ = glIsEnabled(desktop() ? GL_PRIMITIVE_RESTART : GL_PRIMITIVE_RESTART_FIXED_INDEX);
   if (desktop()) {
     restart_index_ = integer(GL_PRIMITIVE_RESTART_INDEX);
@@ -266,13 +277,17 @@ StateGuard::~StateGuard() {
   glLineWidth(line_width_);
   glClearColor(clear_colour_[0], clear_colour_[1], clear_colour_[2], clear_colour_[3]);
   glDepthMask(depth_write_);
-  glClearDepthf(clear_depth_);
+  desktop() ? glClearDepth(clear_depth_) : glClearDepthf(static_cast<GLfloat>(clear_depth_));
   glClearStencil(clear_stencil_);
   enable(GL_DEPTH_TEST, depth_test_);
   enable(GL_STENCIL_TEST, stencil_test_);
   enable(GL_CULL_FACE, cull_);
   enable(GL_SCISSOR_TEST, scissor_test_);
-  glPolygonOffset(offset_factor_, offset_units_);
+  if (has_offset_clamp()) {
+    glPolygonOffsetClamp(offset_factor_, offset_units_, offset_clamp_);
+  } else {
+    glPolygonOffset(offset_factor_, offset_units_);
+  }
   enable(desktop() ? GL_PRIMITIVE_RESTART : GL_PRIMITIVE_RESTART_FIXED_INDEX, restart_);
   if (desktop()) {
     glPrimitiveRestartIndex(static_cast<GLuint>(restart_index_));

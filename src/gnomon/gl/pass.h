@@ -42,7 +42,7 @@ struct Pass {
   std::optional<std::array<double, 2>> depth_bounds{};  // only where Capabilities has it
 };
 
-// `depth_bounds_there`: Capabilities::depth_bounds; `depth_clamp_there` likewise.
+// Of Capabilities.
 struct PassSupport {
   bool depth_clamp = false, depth_bounds = false;
 };
@@ -93,7 +93,8 @@ class StateGuard {
   std::array<GLfloat, 2> bounds_{};
   GLfloat line_width_ = 1;
   GLfloat offset_factor_ = 0, offset_units_ = 0;
-  GLfloat clear_depth_ = 1;
+  GLfloat offset_clamp_ = 0;
+  GLdouble clear_depth_ = 1;
   GLint clear_stencil_ = 0, depth_func_, cull_face_, front_face_, program_, vertex_array_,
         array_buffer_, draw_framebuffer_, read_framebuffer_, renderbuffer_, active_texture_,
         restart_index_ = 0, pack_buffer_, unpack_buffer_, clip_origin_ = 0, clip_depth_ = 0,

@@ -51,8 +51,9 @@ void draw_background(const Frame& frame, const Vec3& colour) {
 
 TargetFormat format_of(const Camera& camera, const Method& m, double scale) {
   TargetFormat f;
-  f.width = std::max(1, static_cast<int>(std::ceil(camera.width * scale)));
-  f.height = std::max(1, static_cast<int>(std::ceil(camera.height * scale)));
+  const auto [width, height] = mask_size(camera, scale);
+  f.width = width;
+  f.height = height;
   f.samples = m.samples;
   f.stencil = m.mask == MaskIn::stencil;
   f.float_bits = m.float_bits;
@@ -85,12 +86,14 @@ glm::vec4 channel_of(const Method& m) {
 
 // A mask at a lower resolution, in a texture (Roettger et al., 4.5).
 Result<Target> low_mask(const Frame& full, const LightPlan& plan) {
-  Frame frame = full;
-  if (full.scissor) frame.scissor = scaled(*full.scissor, plan.method.mask_scale);
-  Result<Target> made = make_target(format_of(*frame.camera, plan.method, plan.method.mask_scale));
+  Result<Target> made = make_target(format_of(*full.camera, plan.method, plan.method.mask_scale));
   if (!made) return made.error();
   Target target = std::move(made).value();
+  Frame frame = full;
+  frame.scissor.reset();
   clear(frame, target, Vec3(0));
+  if (full.scissor)
+    frame.scissor = scaled(*full.scissor, *full.camera, target.format.width, target.format.height);
   draw_depth(frame, first_pass(false));
   const Result<LitTest> lit = draw_light_mask(frame, plan, &target);
   if (!lit) return lit.error();
@@ -174,7 +177,8 @@ Result<bool> add_lights(const Frame& whole, const Target& picture,
 }
 
 // Float bits of a picture that so many lights are added in; 0: eight bits a channel, which round
-// each of them by half a step. Half floats round to a 4096th of the sum. Error: there are no floats.
+// each of them by half a step. Half floats round to a 4096th of the sum. Error: there are no
+// floats.
 Result<int> bits_for_lights(const Capabilities& c, std::size_t lights) {
   constexpr std::size_t kInBytes = 4, kInHalfFloats = 32, kInBytesAtMost = 16;
   if (lights <= kInBytes) return 0;
@@ -309,7 +313,12 @@ void Renderer::update_mesh_from_buffer(MeshId mesh, unsigned buffer, std::size_t
   const auto* data = static_cast<const unsigned char*>(
       glMapBufferRange(GL_ARRAY_BUFFER, static_cast<GLintptr>(offset),
                        static_cast<GLsizeiptr>(bytes), GL_MAP_READ_BIT));
-  if (data == nullptr) return;
+  if (data == nullptr) {
+    state_->failure = Error{
+        "The buffer of new positions cannot be read: is it as long as offset, stride and number of "
+        "vertices say?"};
+    return;
+  }
   for (std::size_t i = 0; i < positions.size(); ++i) {
     float xyz[3];
     std::copy_n(data + i * stride, sizeof(xyz), reinterpret_cast<unsigned char*>(xyz));
@@ -366,6 +375,9 @@ Result<FrameStats> Renderer::draw(const Camera& camera, std::span<const LightSou
   const Result<int> bits = bits_for_lights(state_->capabilities, lights.size());
   if (!bits) return bits.error();
   wanted.float_bits = bits.value();
+  // Masks in half floats hold fewer shadows over each other than others do.
+  if (wanted.float_bits > 0 && wanted.mask != MaskIn::stencil && state_->capabilities.float_blend)
+    wanted.float_bits = 32;
   for (const LightPlan& plan : plans)
     wanted.float_bits = std::max(wanted.float_bits, plan.method.float_bits);
   for (LightPlan& plan : plans) {  // masks live in the picture's alpha, and count as it does
@@ -491,7 +503,7 @@ Result<ShadowMask> Renderer::mask(const Camera& camera, const Light& light, cons
 }
 
 Result<FrameStats> Renderer::draw_mask(const Camera& camera, const Light& light,
-                                       const Method& method) {
+                                       const Method& method, std::uint32_t number) {
   if (method.mask == MaskIn::screen || method.mask_scale != 1) {
     return Error{
         "A mask in the screen buffer or of lower resolution needs a framebuffer of its own: take "
@@ -513,8 +525,8 @@ Result<FrameStats> Renderer::draw_mask(const Camera& camera, const Light& light,
   glGetFramebufferAttachmentParameteriv(GL_DRAW_FRAMEBUFFER,
                                         bound == 0 ? GL_BACK_LEFT : GL_COLOR_ATTACHMENT0,
                                         GL_FRAMEBUFFER_ATTACHMENT_ALPHA_SIZE, &alpha_bits);
-  Result<LightPlan> plan =
-      plan_light(frame, light, 0, 0, method, {stencil_bits != GL_NONE, alpha_bits > 0, 1, true});
+  Result<LightPlan> plan = plan_light(frame, light, 0, number, method,
+                                      {stencil_bits != GL_NONE, alpha_bits > 0, 1, true});
   if (!plan) return plan.error();
   counted.method = plan.value().method;
   if (counted.method.float_bits > 0) {
@@ -524,6 +536,7 @@ Result<FrameStats> Renderer::draw_mask(const Camera& camera, const Light& light,
         "floats, which are counted in a framebuffer of our own only. Take --method stencil."};
   }
   const StateGuard guard(state_->support, DepthsOf::caller);
+  state_->stencil.reset();  // what was known is of another framebuffer
   const Result<LitTest> lit = draw_light_mask(frame, plan.value(), nullptr);
   if (!lit) return lit.error();
   counted.lit_at_most = lit.value().ref;

@@ -135,7 +135,9 @@ class Renderer {
   // reasons; a screen mask or one of lower resolution, or one in floats (see Method), which need a
   // framebuffer of ours; a clip space that is not OpenGL's usual one. Precondition: no query and no
   // transform feedback is active.
-  Result<FrameStats> draw_mask(const Camera& camera, const Light& light, const Method& method);
+  // `number`: which of the frame's lights, 0 and up: each keeps its volumes from frame to frame.
+  Result<FrameStats> draw_mask(const Camera& camera, const Light& light, const Method& method,
+                               std::uint32_t number = 0);
 
   // For an engine's own vertex shaders: "invariant gl_Position; gl_Position = m * vec4(position,
   // 1.0)" with this m gives depths that are the bits of our volumes' caps.

@@ -1,7 +1,9 @@
 // What a Renderer owns, and how its files draw with it. Internal to this room.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -71,6 +73,12 @@ inline void apply(Pass pass, const Frame& frame) {
 // bit, so they are in front of nothing where casters are drawn, but for faces that are seen from
 // behind and were left out (culls_back_faces()), and for casters that are not drawn at all.
 enum class CapsInFront : std::uint8_t { none, seen_from_behind, all };
+
+// Pixels across and down of a mask `scale` times as large as the picture.
+inline std::array<int, 2> mask_size(const Camera& camera, double scale) {
+  return {std::max(1, static_cast<int>(std::ceil(camera.width * scale))),
+          std::max(1, static_cast<int>(std::ceil(camera.height * scale)))};
+}
 
 // One light of a frame.
 struct LightPlan {

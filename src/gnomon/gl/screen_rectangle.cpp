@@ -115,11 +115,18 @@ Rect common(const Rect& a, const Rect& b) {
   return {x, y, right - x, top - y};
 }
 
-Rect scaled(const Rect& r, double k) {
-  Rect out{static_cast<int>(std::floor(r.x * k)), static_cast<int>(std::floor(r.y * k)), 0, 0};
-  out.width = static_cast<int>(std::ceil((r.x + r.width) * k)) - out.x;
-  out.height = static_cast<int>(std::ceil((r.y + r.height) * k)) - out.y;
-  return out;
+Rect scaled(const Rect& r, const Camera& camera, int width, int height) {
+  constexpr int kMore = 2;
+  const auto span = [](int first, int size, int of, int to) {
+    const double k = double(to) / of;
+    return Span{std::max(0, static_cast<int>(std::floor(first * k)) - kMore),
+                std::min(to, static_cast<int>(std::ceil((first + size) * k)) + kMore)};
+  };
+  if (r.width == 0 || r.height == 0) return {0, 0, 0, 0};
+  if (width == camera.width && height == camera.height) return r;
+  const Span x = span(r.x, r.width, camera.width, width);
+  const Span y = span(r.y, r.height, camera.height, height);
+  return {x.first, y.first, x.end - x.first, y.end - y.first};
 }
 
 }  // namespace gnomon::gl

@@ -39,7 +39,8 @@ Rect endless_rectangle(const Camera& camera, const Light& light, const SceneBox&
 // What both cover.
 Rect common(const Rect& a, const Rect& b);
 
-// The same of a picture `scale` times as large, rounded outwards.
-Rect scaled(const Rect& rectangle, double scale);
+// A rectangle of the camera's picture in one of another size, and two pixels more on each side,
+// from which bilinear filtering reads.
+Rect scaled(const Rect& rectangle, const Camera& camera, int width, int height);
 
 }  // namespace gnomon::gl
