@@ -9,7 +9,7 @@ namespace {
 // before that to floats of 24 bits when corners are put on the screen and when they are
 // interpolated over polygons that reach far out of it.
 // Two more and slopes over 1/256 pixel are what the renderer moves sides away by where the light
-// grazes surfaces (mask.cpp).
+// grazes surfaces (volume_draws.cpp).
 constexpr double kSteps = 8 + 2;
 // Corners are rounded to 1/256 pixel (OpenGL asks for 1/16 at least), of surface and side.
 constexpr double kCorner = (1.0 + 2.0) / 256;

@@ -5,7 +5,7 @@
 
 #include <glm/matrix.hpp>
 
-#include <gnomon/gl/renderer_state.h>
+#include <gnomon/gl/volume_batches.h>
 
 namespace gnomon::gl {
 namespace {
@@ -23,6 +23,75 @@ Pass line_pass(GLenum depth_func) {
   p.depth_test = depth_func != GL_ALWAYS;
   p.colour = {true, true, true, false};
   return p;
+}
+
+void draw_lines(const VertexArray& array, const Buffer& buffer, const Buffer& vertices,
+                const std::vector<std::uint32_t>& indices) {
+  glBindVertexArray(array.id());
+  glBindBuffer(GL_ARRAY_BUFFER, vertices.id());
+  glEnableVertexAttribArray(kVertex);
+  glVertexAttribPointer(kVertex, 4, GL_FLOAT, GL_FALSE, 0, nullptr);
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffer.id());
+  glBufferData(GL_ELEMENT_ARRAY_BUFFER,
+               static_cast<GLsizeiptr>(indices.size() * sizeof(std::uint32_t)), indices.data(),
+               GL_STREAM_DRAW);
+  glDrawElements(GL_LINES, static_cast<GLsizei>(indices.size()), GL_UNSIGNED_INT, nullptr);
+  glBindVertexArray(0);
+}
+
+void draw_volume_faces(const Frame& frame, const LightPlan& plan, const Pass& pass,
+                       const glm::vec4& colour) {
+  Prepared prepared = prepare(frame, plan);
+  for (InstanceVolumes& v : prepared.all) v.rectangles.clear();  // they are looked at as a whole
+  apply(pass, frame);
+  for (const std::vector<Batch>& batches : batches_of(frame, prepared)) {
+    for (const Batch& b : batches) {
+      GLuint program =
+          frame.state->programs.volume[static_cast<std::size_t>(plan.method.extrusion)].id();
+      use_volumes(frame, *b.of, program);
+      if (const auto& inside = frame.camera->keep_inside) {
+        program = frame.state->programs.volume_inside.id();
+        glUseProgram(program);
+        set(program, "u_clip", frame.clip_of(*b.of->instance));
+        set(program, "u_project", b.of->plan->project);
+        set(program, "u_inside", glm::mat4(*inside * b.of->instance->to_scene));
+      }
+      set(program, "u_front_colour", colour);
+      set(program, "u_back_colour", colour);
+      for (const bool turned : {false, true}) {
+        draw_sides(frame, plan.method, b.ranges, turned, false);
+        draw_caps(frame, b.ranges, turned);
+      }
+    }
+  }
+}
+
+void draw_silhouettes(const Frame& frame, const LightPlan& plan, const Pass& pass,
+                      const glm::vec4& colour) {
+  const Prepared prepared = prepare(frame, plan);
+  apply(pass, frame);
+  const std::optional<glm::dmat4>& inside = frame.camera->keep_inside;
+  const GLuint program =
+      inside ? frame.state->programs.flat_inside.id() : frame.state->programs.flat.id();
+  glUseProgram(program);
+  set(program, "u_colour", colour);
+  const VertexArray array = VertexArray::make();
+  const Buffer buffer = Buffer::make();
+  for (const InstanceVolumes& v : prepared.all) {
+    Silhouette edges;
+    for (std::uint32_t p = 0; p < v.plan->parts.size(); ++p) {
+      const EdgesOfParts& of = v.mesh->part_edges;
+      find_part_silhouette(edges, v.mesh->edges,
+                           std::span(of.edge).subspan(of.first[p], of.first[p + 1] - of.first[p]),
+                           v.mesh->parts.part_of, p, v.volumes->light_side,
+                           v.plan->parts[p].casting);
+    }
+    std::vector<std::uint32_t> indices;
+    for (const SilhouetteEdge& e : edges) indices.insert(indices.end(), {2 * e.a, 2 * e.b});
+    set(program, "u_clip", frame.clip_of(*v.instance));
+    if (inside) set(program, "u_inside", glm::mat4(*inside * v.instance->to_scene));
+    draw_lines(array, buffer, v.mesh->doubled, indices);
+  }
 }
 
 // Lines between vertices in clip space.

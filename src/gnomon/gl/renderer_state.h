@@ -159,19 +159,10 @@ void draw_where_shadowed(Pass& pass, const LitTest& lit);
 // in.
 Result<LitTest> draw_light_mask(const Frame& frame, const LightPlan& plan, const Target* target);
 
-// The volumes alone, by the pass and colour given, and the edges that they start from: to be looked
-// at.
-void draw_volume_faces(const Frame& frame, const LightPlan& plan, const Pass& pass,
-                       const glm::vec4& colour);
-void draw_silhouettes(const Frame& frame, const LightPlan& plan, const Pass& pass,
-                      const glm::vec4& colour);
-
 // Over the picture in the bound framebuffer.
 // Error: counts of a mask that has none.
 Result<bool> draw_overlay(const Frame& frame, std::span<const LightSource> lights,
                           std::span<const LightPlan> plans, const Overlay& overlay,
                           const Vec3& background);
-void draw_lines(const VertexArray& array, const Buffer& buffer, const Buffer& vertices,
-                const std::vector<std::uint32_t>& indices);
 
 }  // namespace gnomon::gl

@@ -30,27 +30,6 @@ class Culling {
   bool on_ = false;
 };
 
-}  // namespace
-
-// Back faces of solid parts are left out where no such part may have the near rectangle inside.
-bool culls_back_faces(const Frame& frame, const InstanceSlot& instance, const GpuMesh& mesh) {
-  if (mesh.solid_count == 0) return false;
-  const glm::dmat4 to_mesh = glm::inverse(instance.to_scene);
-  Vec3 lo(to_mesh * point(frame.camera->near_rectangle[0])), hi = lo;
-  for (const Vec3& corner : frame.camera->near_rectangle) {
-    lo = glm::min(lo, Vec3(to_mesh * point(corner)));
-    hi = glm::max(hi, Vec3(to_mesh * point(corner)));
-  }
-  for (std::size_t p = 0; p < mesh.parts.parts.size(); ++p) {
-    const Part& part = mesh.parts.parts[p];
-    if (part.winding > 0 && mesh.part_seen[p] != 0 && lo.x <= part.hi.x && part.lo.x <= hi.x &&
-        lo.y <= part.hi.y && part.lo.y <= hi.y && lo.z <= part.hi.z && part.lo.z <= hi.z) {
-      return false;
-    }
-  }
-  return true;
-}
-
 // Some receiving triangles in one colour, of the vertices that all triangles share.
 class FlatSurfaces {
  public:
@@ -78,6 +57,27 @@ class FlatSurfaces {
   const std::optional<glm::dmat4>& inside_;
   GLuint program_;
 };
+
+}  // namespace
+
+// Back faces of solid parts are left out where no such part may have the near rectangle inside.
+bool culls_back_faces(const Frame& frame, const InstanceSlot& instance, const GpuMesh& mesh) {
+  if (mesh.solid_count == 0) return false;
+  const glm::dmat4 to_mesh = glm::inverse(instance.to_scene);
+  Vec3 lo(to_mesh * point(frame.camera->near_rectangle[0])), hi = lo;
+  for (const Vec3& corner : frame.camera->near_rectangle) {
+    lo = glm::min(lo, Vec3(to_mesh * point(corner)));
+    hi = glm::max(hi, Vec3(to_mesh * point(corner)));
+  }
+  for (std::size_t p = 0; p < mesh.parts.parts.size(); ++p) {
+    const Part& part = mesh.parts.parts[p];
+    if (part.winding > 0 && mesh.part_seen[p] != 0 && lo.x <= part.hi.x && part.lo.x <= hi.x &&
+        lo.y <= part.hi.y && part.lo.y <= hi.y && lo.z <= part.hi.z && part.lo.z <= hi.z) {
+      return false;
+    }
+  }
+  return true;
+}
 
 void draw_depth(const Frame& frame, const Pass& pass) { draw_flat(frame, pass, glm::vec4(0)); }
 

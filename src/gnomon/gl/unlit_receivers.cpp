@@ -1,0 +1,79 @@
+// Receivers that are in shadow though no volume of their own says so.
+#include <array>
+
+#include <gnomon/core/exact.h>
+#include <gnomon/gl/mask_counts.h>
+
+namespace gnomon::gl {
+
+// The unlit side of a receiver that does not cast is in shadow though nothing of its own counts
+// (docs/exactness.md). Of one that casts and lies nearly in a plane with the light, the side that
+// belongs before the unlit side may have come behind it: by rounding, or because it is moved away.
+// Such receivers, drawn again where they are seen, add one.
+void count_unlit_receivers(const Frame& frame, const LightPlan& plan, const Prepared& prepared) {
+  const Method& m = plan.method;
+  for (std::size_t i = 0; i < plan.instances.size(); ++i) {
+    const InstanceSlot& instance = frame.state->instances[i];
+    if (!instance.alive) continue;
+    const GpuMesh& mesh = frame.state->meshes[instance.mesh].gpu;
+    // By light side: of -1 the light sees the counterclockwise side, and the other one is unlit.
+    std::array<std::vector<std::uint32_t>, 2> indices;
+    const auto add = [&](std::uint32_t t, int side) {
+      const Triangle& v = mesh.mesh.triangles[t];
+      std::vector<std::uint32_t>& to = indices[side > 0 ? 1 : 0];
+      to.insert(to.end(), {2 * v[0], 2 * v[1], 2 * v[2]});
+    };
+    ExactStats exact;
+    for (const std::uint32_t t : mesh.only_receive) {
+      const Triangle& v = mesh.mesh.triangles[t];
+      add(t, light_side(mesh.mesh.positions[v[0]], mesh.mesh.positions[v[1]],
+                        mesh.mesh.positions[v[2]], plan.instances[i].light, exact));
+    }
+    if (!plan.instances[i].parts.empty()) {
+      const CasterVolumes& v = instance.volumes[plan.number];
+      for (const std::uint32_t t : v.nearly_grazed) add(t, v.light_side[t]);
+    }
+    for (const bool positive : {false, true}) {
+      const std::vector<std::uint32_t>& drawn = indices[positive ? 1 : 0];
+      if (drawn.empty()) continue;
+      Pass p;
+      p.depth_func = GL_EQUAL;
+      p.depth_clamp = m.far_plane == FarPlane::clamp;
+      p.cull = positive ? GL_BACK : GL_FRONT;
+      float brightness = 1;
+      if (m.mask == MaskIn::stencil) {
+        p.stencil_test = true;
+        if (prepared.grouped) {  // the shaded bit says it all
+          p.stencil_ref = static_cast<GLint>(kShadedBit);
+          p.stencil_write = kShadedBit;
+        }
+        p.front.depth_pass = p.back.depth_pass = prepared.grouped ? GL_REPLACE : GL_INCR;
+      } else {
+        p.blend = true;
+        p.source = kFaceSource;
+        p.destination = kFaceDestination;
+        p.colour = mask_channels(m);
+        brightness = m.arithmetic == Arithmetic::doubling ? kDoubles : kHalves;
+      }
+      apply(p, frame);
+      const GLuint program = frame.state->programs.flat.id();
+      glUseProgram(program);
+      set(program, "u_clip", frame.clip_of(instance));
+      set(program, "u_colour", glm::vec4(brightness));
+      VertexArray array = VertexArray::make();
+      Buffer buffer = Buffer::make();
+      glBindVertexArray(array.id());
+      glBindBuffer(GL_ARRAY_BUFFER, mesh.doubled.id());
+      glEnableVertexAttribArray(kVertex);
+      glVertexAttribPointer(kVertex, 4, GL_FLOAT, GL_FALSE, 0, nullptr);
+      glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffer.id());
+      glBufferData(GL_ELEMENT_ARRAY_BUFFER,
+                   static_cast<GLsizeiptr>(drawn.size() * sizeof(std::uint32_t)), drawn.data(),
+                   GL_STREAM_DRAW);
+      glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(drawn.size()), GL_UNSIGNED_INT, nullptr);
+      glBindVertexArray(0);
+    }
+  }
+}
+
+}  // namespace gnomon::gl
