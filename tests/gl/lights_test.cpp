@@ -140,19 +140,21 @@ TEST(Lights, ShineTheSameOnAScaledInstance) {
 
 TEST(Lights, ManyDimOnesAddUpToABrightOne) {
   const Scene scene = test::scene_of(boxes_on_ground());
-  Stage stage = stage_of(scene);
   const View view = aerial(64, 48);
   const Camera camera = camera_of(view, depth_range(scene, view, true));
   constexpr int kLights = 200;
   std::vector<LightSource> one{three_lamps()[0]}, many(kLights, one[0]);
   for (LightSource& light : many) light.colour /= double(kLights);
-  for (const MaskIn mask : {MaskIn::stencil, MaskIn::alpha, MaskIn::screen}) {
-    Method m;
-    m.mask = mask;
-    EXPECT_LE(largest_difference(picture(stage.renderer, camera, many, m),
-                                 picture(stage.renderer, camera, one, m)),
-              2)
-        << name_of(mask);
+  {
+    Stage stage = stage_of(scene);
+    for (const MaskIn mask : {MaskIn::stencil, MaskIn::alpha, MaskIn::screen}) {
+      Method m;
+      m.mask = mask;
+      EXPECT_LE(largest_difference(picture(stage.renderer, camera, many, m),
+                                   picture(stage.renderer, camera, one, m)),
+                2)
+          << name_of(mask);
+    }
   }
   Stage poor = stage_of(scene, Api::opengl, {"float-colour"});
   const Result<Image> refused = poor.renderer.render(camera, many, {});
