@@ -43,7 +43,8 @@ TEST(Instances, ThousandsOfThemPaintTheMaskOfOneMesh) {
   }
   const Scene scene = test::scene_of(std::move(whole));
   const View view = perspective_view({-40, -50, 70}, {112, 112, 0}, {0, 0, 1}, 0.7, 160, 120);
-  // Grazes none of their walls, or sides over their edges would be moved away a little (volume_draws.cpp).
+  // Grazes none of their walls, or sides over their edges would be moved away a little
+  // (volume_draws.cpp).
   const Light light(0.5, 0.32, 0.6, 0);
   const Casters casters = prepare_casters(scene);
   const ExactView exact_view_of = exact_view(scene, casters, view);
