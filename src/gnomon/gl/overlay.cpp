@@ -25,20 +25,6 @@ Pass line_pass(GLenum depth_func) {
   return p;
 }
 
-void draw_lines(const VertexArray& array, const Buffer& buffer, const Buffer& vertices,
-                const std::vector<std::uint32_t>& indices) {
-  glBindVertexArray(array.id());
-  glBindBuffer(GL_ARRAY_BUFFER, vertices.id());
-  glEnableVertexAttribArray(kVertex);
-  glVertexAttribPointer(kVertex, 4, GL_FLOAT, GL_FALSE, 0, nullptr);
-  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffer.id());
-  glBufferData(GL_ELEMENT_ARRAY_BUFFER,
-               static_cast<GLsizeiptr>(indices.size() * sizeof(std::uint32_t)), indices.data(),
-               GL_STREAM_DRAW);
-  glDrawElements(GL_LINES, static_cast<GLsizei>(indices.size()), GL_UNSIGNED_INT, nullptr);
-  glBindVertexArray(0);
-}
-
 void draw_volume_faces(const Frame& frame, const LightPlan& plan, const Pass& pass,
                        const glm::vec4& colour) {
   Prepared prepared = prepare(frame, plan);
@@ -75,8 +61,6 @@ void draw_silhouettes(const Frame& frame, const LightPlan& plan, const Pass& pas
       inside ? frame.state->programs.flat_inside.id() : frame.state->programs.flat.id();
   glUseProgram(program);
   set(program, "u_colour", colour);
-  const VertexArray array = VertexArray::make();
-  const Buffer buffer = Buffer::make();
   for (const InstanceVolumes& v : prepared.all) {
     Silhouette edges;
     for (std::uint32_t p = 0; p < v.plan->parts.size(); ++p) {
@@ -90,7 +74,7 @@ void draw_silhouettes(const Frame& frame, const LightPlan& plan, const Pass& pas
     for (const SilhouetteEdge& e : edges) indices.insert(indices.end(), {2 * e.a, 2 * e.b});
     set(program, "u_clip", frame.clip_of(*v.instance));
     if (inside) set(program, "u_inside", glm::mat4(*inside * v.instance->to_scene));
-    draw_lines(array, buffer, v.mesh->doubled, indices);
+    draw_indexed(GL_LINES, v.mesh->doubled, indices);
   }
 }
 
@@ -119,8 +103,6 @@ void draw_edges(const Frame& frame) {
   const GLuint program = frame.state->programs.flat.id();
   glUseProgram(program);
   set(program, "u_colour", kEdgeColour);
-  const VertexArray array = VertexArray::make();
-  const Buffer buffer = Buffer::make();
   for (const InstanceSlot& instance : frame.state->instances) {
     if (!instance.alive) continue;
     const GpuMesh& mesh = frame.state->meshes[instance.mesh].gpu;
@@ -128,7 +110,7 @@ void draw_edges(const Frame& frame) {
     std::vector<std::uint32_t> indices;
     for (const auto& e : edges.vertices) indices.insert(indices.end(), {2 * e[0], 2 * e[1]});
     set(program, "u_clip", frame.clip_of(instance));
-    draw_lines(array, buffer, mesh.doubled, indices);
+    draw_indexed(GL_LINES, mesh.doubled, indices);
   }
 }
 

@@ -135,6 +135,11 @@ struct Lighting {
 };
 void draw_lit(const Frame& frame, const Pass& pass, const Lighting& lighting);
 
+// Of a mesh's doubled vertices, by the pass and program that are set, what changes from frame to
+// frame.
+void draw_indexed(GLenum primitive, const Buffer& vertices,
+                  const std::vector<std::uint32_t>& indices);
+
 // Rectangles over the viewport. `depth`: -1 the near plane, 1 the far plane.
 void draw_rectangle(const Frame& frame, const Pass& pass, const glm::vec4& colour,
                     float depth = -1);

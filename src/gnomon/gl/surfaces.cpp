@@ -191,6 +191,22 @@ void draw_lit(const Frame& frame, const Pass& pass, const Lighting& l) {
   ++frame.stats->passes;
 }
 
+void draw_indexed(GLenum primitive, const Buffer& vertices,
+                  const std::vector<std::uint32_t>& indices) {
+  const VertexArray array = VertexArray::make();
+  const Buffer buffer = Buffer::make();
+  glBindVertexArray(array.id());
+  glBindBuffer(GL_ARRAY_BUFFER, vertices.id());
+  glEnableVertexAttribArray(kVertex);
+  glVertexAttribPointer(kVertex, 4, GL_FLOAT, GL_FALSE, 0, nullptr);
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffer.id());
+  glBufferData(GL_ELEMENT_ARRAY_BUFFER,
+               static_cast<GLsizeiptr>(indices.size() * sizeof(std::uint32_t)), indices.data(),
+               GL_STREAM_DRAW);
+  glDrawElements(primitive, static_cast<GLsizei>(indices.size()), GL_UNSIGNED_INT, nullptr);
+  glBindVertexArray(0);
+}
+
 void draw_rectangle(const Frame& frame, const Pass& pass, const glm::vec4& colour, float depth) {
   apply(pass, frame);
   const GLuint program = frame.state->programs.rectangle.id();

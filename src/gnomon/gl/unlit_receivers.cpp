@@ -60,18 +60,7 @@ void count_unlit_receivers(const Frame& frame, const LightPlan& plan, const Prep
       glUseProgram(program);
       set(program, "u_clip", frame.clip_of(instance));
       set(program, "u_colour", glm::vec4(brightness));
-      VertexArray array = VertexArray::make();
-      Buffer buffer = Buffer::make();
-      glBindVertexArray(array.id());
-      glBindBuffer(GL_ARRAY_BUFFER, mesh.doubled.id());
-      glEnableVertexAttribArray(kVertex);
-      glVertexAttribPointer(kVertex, 4, GL_FLOAT, GL_FALSE, 0, nullptr);
-      glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffer.id());
-      glBufferData(GL_ELEMENT_ARRAY_BUFFER,
-                   static_cast<GLsizeiptr>(drawn.size() * sizeof(std::uint32_t)), drawn.data(),
-                   GL_STREAM_DRAW);
-      glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(drawn.size()), GL_UNSIGNED_INT, nullptr);
-      glBindVertexArray(0);
+      draw_indexed(GL_TRIANGLES, mesh.doubled, drawn);
     }
   }
 }
