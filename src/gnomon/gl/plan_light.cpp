@@ -79,12 +79,13 @@ SceneBox casters_of(const Frame& frame) {
 }
 
 // A plane h with light, near rectangle, receivers and casters on its positive side (h . X > 0) and
-// every ray from the light through a caster crossing it: of the six sides of the receivers' box,
-// moved outwards, the one that the light meets most directly.
+// every ray from the light through a caster crossing it: of the six sides of the box round
+// receivers, casters and near rectangle, moved outwards, the one that the light meets most
+// directly.
 struct Bound {
   Vec4 plane;
-  // What is farther along the plane's normal than this, h . X, is nothing that receives; infinite
-  // where the near rectangle is not on the receivers' side.
+  // h . X of whatever receives, and of the near rectangle, is no less than this; -infinite where
+  // the near rectangle reaches beyond the receivers.
   double receivers = 0;
 };
 std::optional<Bound> bounding_plane(const Frame& frame, const Light& light) {
@@ -118,20 +119,17 @@ std::optional<Bound> bounding_plane(const Frame& frame, const Light& light) {
       h[axis] = sign;
       const double low =
           sign > 0 ? std::min(lo[axis], caster_lo[axis]) : -std::max(hi[axis], caster_hi[axis]);
-      h.w = -(std::min(low, near_low(axis, sign)) - margin);
+      const double near = near_low(axis, sign);
+      h.w = -(std::min(low, near) - margin);
       const double top = sign > 0 ? caster_hi[axis] : -caster_lo[axis];  // of casters
       const double side = glm::dot(h, light);
       // A point light keeps its distance from the highest caster, a sun an angle from the plane.
       const double clear =
           light.w != 0 ? (side - (top + h.w)) / side : side / glm::length(Vec3(light));
       if (!(side > 0) || !(clear > kBoundClear) || clear < most) continue;
-      double nearest = kInf;
-      for (const Vec3& p : camera.near_rectangle)
-        nearest = std::min(nearest, glm::dot(h, point(p)));
-      if (!(nearest > 0)) continue;
       most = clear;
-      const double receivers = (sign > 0 ? lo[axis] : -hi[axis]) + h.w;
-      best = Bound{h, nearest > receivers ? receivers : -kInf};
+      const double receivers = sign > 0 ? lo[axis] : -hi[axis];
+      best = Bound{h, near > receivers ? receivers + h.w : -kInf};
     }
   }
   return best;
