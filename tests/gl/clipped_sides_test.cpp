@@ -178,5 +178,54 @@ TEST(SidesBeyondReceivers, AreBehindEverythingWhateverTheRounding) {
   }
 }
 
+// A near plane amid a street, a far plane amid the boxes behind: surfaces are cut there, and so are
+// their light caps, which z-fail counts. With the far plane at infinity nothing but the near plane
+// cuts, and all is cut alike.
+TEST(CutSurfaces, AreNotDarkenedByTheirOwnCapsUnderDepthClamp) {
+  TriMesh m;
+  test::add_ground(m, 60);
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> at(-40, 40), size(1, 6);
+  for (int k = 0; k < 60; ++k) {
+    const Vec3 lo(at(random), at(random), 0);
+    test::add_box(m, lo, lo + Vec3(size(random), size(random), 2 * size(random)));
+  }
+  const Scene scene = test::scene_of(std::move(m));
+  Stage stage = stage_of(scene);
+  const View view = perspective_view({-50, -45, 3}, {0, 0, 4}, {0, 0, 1}, 1.0, 320, 240);
+  const Camera endless = camera_of(view, {6.0});
+  int cut = 0;
+  for (const double far_plane : {400.0, 60.0}) {
+    const Camera camera = camera_of(view, {6.0, far_plane});
+    for (const Light& light :
+         {Light(-1, 0.3, 1.2, 0), Light(0.9, 0.5, 0.4, 0), Light(-45, -41, 9, 1)}) {
+      for (const MaskIn in : {MaskIn::stencil, MaskIn::alpha}) {
+        Method usual;
+        usual.mask = in;
+        const ShadowMask expected = stage.renderer.mask(endless, light, usual).value();
+        for (const auto& [count, reach] :
+             {std::pair(Count::automatic, Reach::automatic),
+              std::pair(Count::z_fail, Reach::automatic), std::pair(Count::z_fail, Reach::infinite),
+              std::pair(Count::mixed, Reach::infinite)}) {
+          Method method = usual;
+          method.count = count;
+          method.reach = reach;
+          const ShadowMask drawn = stage.renderer.mask(camera, light, method).value();
+          int differ = 0;
+          for (std::size_t k = 0; k < drawn.state.size(); ++k) {
+            if (drawn.state[k] == ShadowMask::kNoSample) {
+              cut += expected.state[k] != ShadowMask::kNoSample;
+            } else {
+              differ += drawn.state[k] != expected.state[k];
+            }
+          }
+          EXPECT_EQ(differ, 0) << far_plane << ", light " << light.x << ": " << describe(method);
+        }
+      }
+    }
+  }
+  EXPECT_GT(cut, 1000);
+}
+
 }  // namespace
 }  // namespace gnomon::gl

@@ -269,6 +269,33 @@ TEST(Edges, SamplesOnThemAreToldApart) {
   }
 }
 
+// A plate shades the ground from x = -10 to 0, and below it the shadow of an upright wall begins a
+// thousandth of a pixel from the pixel centres of one row: its side is seen edge-on, and may be
+// counted there at any depth, but not in the next row.
+TEST(Explanations, OfSidesSeenEdgeOnHoldOnlyWhereTheyPass) {
+  TriMesh m;
+  test::add_ground(m, 40);
+  test::add_quad(m, {10, -8, 10}, {20, -8, 10}, {20, 8, 10}, {10, 8, 10});
+  test::add_quad(m, {4, 0.501, 1}, {4, 3.6, 1}, {4, 3.6, 3}, {4, 0.501, 3});
+  const Scene scene = test::scene_of(std::move(m));
+  const Casters casters = prepare_casters(scene);
+  const View view = plan_view({-32, -32, 32, 32}, 1, 0);
+  const ExactView samples = exact_view(scene, casters, view);
+  const ExactAnswers exact = exact_answers(samples, Light(1, 0, 0.5, 0));
+  const Camera camera = camera_of(view, depth_range(scene, view, false));
+  const MaskBound b = bound_of({});
+  const auto made_lit = [&](int x, int y) {  // the pixel whose lower left corner is there
+    ShadowMask drawn = exact.mask;
+    std::uint8_t& state = drawn.state[std::size_t(31 - y) * 64 + std::size_t(x + 32)];
+    EXPECT_EQ(state, ShadowMask::kShadow);
+    state = ShadowMask::kLit;
+    return compare_masks(exact, drawn, {camera.clip}, {b.edge, b.steps, b.pixels});
+  };
+  EXPECT_EQ(made_lit(-2, 0).in_depth, 1u);
+  EXPECT_EQ(made_lit(-2, -1).unexplained, 1u);  // a row farther
+  EXPECT_EQ(made_lit(-2, 1).unexplained, 1u);   // in both shadows
+}
+
 // 340 layers, each `rise` above the one before.
 void add_folded_strip(TriMesh& m, double rise) {
   constexpr int kFolds = 340;  // modulo 128 more than half of it: a group that holds all is lit

@@ -74,16 +74,15 @@ void count_by_blending(const Frame& frame, const LightPlan& plan, const Prepared
         if (m.count == Count::near_cap) draw_near_start(frame, plan, b, p, leaves);
         p.cull = GL_NONE;
       }
-      const GLuint program = volume_program(frame, plan, z_fail);
-      use_volumes(frame, v, program);
+      const GLuint program = use_volumes(frame, plan, v, z_fail);
       apply(p, frame);
       for (const bool turned : {false, true}) {
         if (!any(b.ranges, turned)) continue;
         // z-fail counts behind: what is left counts up there.
         const bool front_enters = z_fail == turned;
-        set(program, "u_front_colour", glm::vec4(front_enters ? enters : leaves));
-        set(program, "u_back_colour", glm::vec4(front_enters ? leaves : enters));
-        draw_faces(frame, m, b, p, turned);
+        const FaceColours colours{front_enters ? enters : leaves, front_enters ? leaves : enters};
+        set_colours(program, colours);
+        draw_faces(frame, plan, b, p, turned, colours);
       }
     }
   }

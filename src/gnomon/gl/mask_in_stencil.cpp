@@ -64,9 +64,9 @@ void count_phase(const Frame& frame, const LightPlan& plan, const Method& m,
           apply(p, frame);
         }
         applied = true;
-        if (used != b.of) use_volumes(frame, *b.of, volume_program(frame, plan, z_fail));
+        if (used != b.of) use_volumes(frame, plan, *b.of, z_fail);
         used = b.of;
-        draw_faces(frame, m, b, p, turned);
+        draw_faces(frame, plan, b, p, turned);
       }
     }
   }

@@ -383,7 +383,8 @@ std::string bounds_table() {
 
 What `gnomon verify-gl` and the tests hold every method to (src/gnomon/gl/mask_bounds.cpp). A sample may differ from the exact mask where its answer is
 exact within so many pixels of it, or where sides of shadow volumes lie within so many steps of a 24-bit depth buffer of it, plus what their slopes
-make of so much of a pixel. Samples whose surface lies in one plane with the light (to 2^-20) are left out: no light falls on them.
+make of so much of a pixel; a side that passes as close by a sample may cover it or not, and one that is seen edge-on has every depth
+([renderer-limits.md](renderer-limits.md#sides-seen-edge-on)). Samples whose surface lies in one plane with the light (to 2^-20) are left out: no light falls on them.
 The stencil's mask: under the same camera, reach and primitives. The share leaves out samples that lie on an edge to a 256th of a pixel, to which rasterizers
 round corners: where an edge runs along a row of pixel centres, a whole row does. At half and quarter size half of the samples with an edge within so many
 pixels may differ if that is more: an answer from another place is right half of the time where both are as frequent.

@@ -41,9 +41,10 @@ enum SurfaceVariant : unsigned {
 };
 
 struct Programs {
-  ProgramHandle volume[4];            // by Extrusion
-  ProgramHandle volume_from_near[4];  // likewise; nothing before the near plane
-  ProgramHandle near_light;           // casters as the light sees them on the near plane (ZP+)
+  ProgramHandle volume[4];  // by Extrusion
+  // Likewise; nothing before the plane u_keep of clip space.
+  ProgramHandle volume_cut[4];
+  ProgramHandle near_light;     // casters as the light sees them on the near plane (ZP+)
   ProgramHandle volume_inside;  // extruded in the shader; nothing outside another camera's frustum
   ProgramHandle flat_inside;    // likewise
   ProgramHandle flat;           // one colour on surfaces

@@ -11,6 +11,9 @@ namespace gnomon::gl::shaders {
 // coordinates before the one matrix to clip space, where the paper has two modelview matrices
 // before one projection. u_project for a far end at infinity has the rows (Lw 0 0 -Lx), ..., (0 0 0
 // 0): its product is the difference of the paper, as one subtraction rounds it.
+// v_beyond: how far beyond the plane u_keep (a row of clip space), and that cut off at 0. Over a
+// sliver that is seen edge-on drivers may interpolate the first to anything; the second stays 0
+// where no corner is before the plane.
 inline constexpr const char* kVolumeVertex = R"(
 in vec4 a_vertex;
 uniform mat4 u_clip;
@@ -19,8 +22,9 @@ uniform mat4 u_project;
 uniform mat4 u_inside;
 out vec4 v_inside;
 #endif
-#ifdef FROM_NEAR
-out float v_near;
+#ifdef CUT
+uniform vec4 u_keep;
+out vec2 v_beyond;
 #endif
 invariant gl_Position;
 void main() {
@@ -36,8 +40,9 @@ void main() {
 #ifdef INSIDE
   v_inside = u_inside * p;
 #endif
-#ifdef FROM_NEAR
-  v_near = gl_Position.z + gl_Position.w;
+#ifdef CUT
+  float beyond = dot(u_keep, gl_Position);
+  v_beyond = vec2(beyond, min(beyond, 0.0));
 #endif
 }
 )";
@@ -53,15 +58,15 @@ out vec4 o_colour;
 #ifdef INSIDE
 in vec4 v_inside;
 #endif
-#ifdef FROM_NEAR
-in float v_near;
+#ifdef CUT
+in vec2 v_beyond;
 #endif
 void main() {
 #ifdef INSIDE
   if (any(greaterThan(abs(v_inside.xyz), vec3(v_inside.w)))) discard;
 #endif
-#ifdef FROM_NEAR
-  if (v_near < 0.0) discard;
+#ifdef CUT
+  if (max(v_beyond.x, v_beyond.y) < 0.0) discard;
 #endif
 #ifdef FACES
   o_colour = gl_FrontFacing ? u_front_colour : u_back_colour;

@@ -38,7 +38,6 @@ void count_unlit_receivers(const Frame& frame, const LightPlan& plan, const Prep
       if (drawn.empty()) continue;
       Pass p;
       p.depth_func = GL_EQUAL;
-      p.depth_clamp = m.far_plane == FarPlane::clamp;
       p.cull = positive ? GL_BACK : GL_FRONT;
       float brightness = 1;
       if (m.mask == MaskIn::stencil) {

@@ -55,15 +55,22 @@ Batch batch_of(const InstanceVolumes& v, std::size_t first, std::size_t last, bo
 std::optional<Rect> scissor_of(const Frame& frame, const InstanceVolumes& v, std::size_t volume);
 
 bool starts_at_near_plane(const Method& m);
-// The program for volumes that are counted so; uniforms u_front_colour and u_back_colour are left
-// to be set.
-GLuint volume_program(const Frame& frame, const LightPlan& plan, bool z_fail);
-// Uniforms and vertices of one instance's volumes.
+struct FaceColours {
+  float front = 1, back = 1;
+};
+// Program, uniforms and vertices of one instance's volumes that are counted so; colours are left to
+// be set where they matter.
+GLuint use_volumes(const Frame& frame, const LightPlan& plan, const InstanceVolumes& v,
+                   bool z_fail);
+void set_colours(GLuint program, const FaceColours& colours);
+// The same of a program for volumes that are looked at.
 void use_volumes(const Frame& frame, const InstanceVolumes& v, GLuint program);
 bool any(const std::array<IndexRange, kListKinds>& ranges, bool turned);
-// What a way of counting draws of a batch, in a pass that is applied: z-fail the whole surface of
-// the volumes, z-pass their sides, and light caps where they may be in front of the picture.
-void draw_faces(const Frame& frame, const Method& m, const Batch& b, const Pass& pass, bool turned);
+// What a way of counting draws of a batch, in a pass that is applied, after use_volumes() and
+// set_colours(): z-fail the whole surface of the volumes, z-pass their sides, and light caps where
+// they may be in front of the picture.
+void draw_faces(const Frame& frame, const LightPlan& plan, const Batch& b, const Pass& pass,
+                bool turned, const FaceColours& colours = {});
 // Sides (`offset`: those that start in a grazed plane moved away), and caps: to be looked at.
 void draw_sides(const Frame& frame, const Method& m,
                 const std::array<IndexRange, kListKinds>& ranges, bool turned, bool offset);

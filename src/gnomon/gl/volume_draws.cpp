@@ -25,6 +25,19 @@ void draw_range(const Frame& frame, const IndexRange& range, GLenum primitive = 
   frame.stats->volume_triangles += range.count / 3;
 }
 
+enum class Kept { all, from_near, beyond_far };
+
+// The program that is used is left used.
+GLuint volume_program(const Frame& frame, const LightPlan& plan, Kept kept) {
+  const Programs& programs = frame.state->programs;
+  const auto form = static_cast<std::size_t>(plan.method.extrusion);
+  if (kept == Kept::all) return programs.volume[form].id();
+  const GLuint program = programs.volume_cut[form].id();
+  glUseProgram(program);
+  set(program, "u_keep", kept == Kept::from_near ? glm::vec4(0, 0, 1, 1) : glm::vec4(0, 0, 1, -1));
+  return program;
+}
+
 // Sides that start at an edge of a triangle whose plane holds the light lie in that plane. Exactly,
 // they are just behind whatever lies there and is seen from its lit side, and just before what is
 // seen from its unlit one, which count_unlit_receivers() shades; so where such triangles receive,
@@ -34,15 +47,21 @@ constexpr float kOffsetSlope = 1.0f / 256, kOffsetSteps = 2;
 
 }  // namespace
 
+void set_colours(GLuint program, const FaceColours& colours) {
+  set(program, "u_front_colour", glm::vec4(colours.front));
+  set(program, "u_back_colour", glm::vec4(colours.back));
+}
+
 bool starts_at_near_plane(const Method& m) {
   return m.count == Count::near_cap || m.count == Count::zp_plus;
 }
 
-GLuint volume_program(const Frame& frame, const LightPlan& plan, bool z_fail) {
-  const Programs& programs = frame.state->programs;
-  const auto form = static_cast<std::size_t>(plan.method.extrusion);
-  return leaves_out_before_near(plan.method, z_fail) ? programs.volume_from_near[form].id()
-                                                     : programs.volume[form].id();
+GLuint use_volumes(const Frame& frame, const LightPlan& plan, const InstanceVolumes& v,
+                   bool z_fail) {
+  const Kept kept = leaves_out_before_near(plan.method, z_fail) ? Kept::from_near : Kept::all;
+  const GLuint program = volume_program(frame, plan, kept);
+  use_volumes(frame, v, program);
+  return program;
 }
 
 void use_volumes(const Frame& frame, const InstanceVolumes& v, GLuint program) {
@@ -70,12 +89,36 @@ void draw_caps(const Frame& frame, const std::array<IndexRange, kListKinds>& ran
   draw_range(frame, ranges[turned ? kDarkCapTurned : kDarkCap]);
 }
 
-void draw_faces(const Frame& frame, const Method& m, const Batch& b, const Pass& pass,
-                bool turned) {
-  draw_sides(frame, m, b.ranges, turned, b.of->offset);
+namespace {
+
+// Light caps must be as deep as their surfaces to the last bit, so where surfaces are cut by the
+// near or far plane, they are cut likewise, not clamped. Nothing is missing before the near plane,
+// where neither way of counting counts a cap; but what lies beyond the far plane is behind the
+// picture, for z-fail to count.
+void draw_light_caps(const Frame& frame, const LightPlan& plan, const Batch& b, const Pass& pass,
+                     const IndexRange& caps, const FaceColours& colours) {
+  if (!pass.depth_clamp || !b.of->plan->cut || caps.count == 0) return draw_range(frame, caps);
+  Pass clipped = pass;
+  clipped.depth_clamp = false;
+  apply(clipped, frame);
+  draw_range(frame, caps);
+  apply(pass, frame);
+  if (!b.z_fail || !b.of->plan->beyond_far) return;
+  const GLuint program = volume_program(frame, plan, Kept::beyond_far);
+  use_volumes(frame, *b.of, program);
+  set_colours(program, colours);
+  draw_range(frame, caps);
+  use_volumes(frame, plan, *b.of, b.z_fail);
+}
+
+}  // namespace
+
+void draw_faces(const Frame& frame, const LightPlan& plan, const Batch& b, const Pass& pass,
+                bool turned, const FaceColours& colours) {
+  draw_sides(frame, plan.method, b.ranges, turned, b.of->offset);
   const IndexRange& caps = b.ranges[turned ? kLightCapTurned : kLightCap];
   if (b.z_fail) {
-    draw_range(frame, caps);
+    draw_light_caps(frame, plan, b, pass, caps, colours);
     const IndexRange& dark = b.ranges[turned ? kDarkCapTurned : kDarkCap];
     if (dark.count == 0) return;
     // From the near plane on it lies behind everything, whatever the rounding of depths.
@@ -85,13 +128,14 @@ void draw_faces(const Frame& frame, const Method& m, const Batch& b, const Pass&
     draw_range(frame, dark);
     return apply(pass, frame);
   }
-  if (b.of->plan->caps_in_front == CapsInFront::all) return draw_range(frame, caps);
+  if (b.of->plan->caps_in_front == CapsInFront::all)
+    return draw_light_caps(frame, plan, b, pass, caps, colours);
   if (b.of->plan->caps_in_front == CapsInFront::none || caps.count == 0) return;
   if (pass.cull == GL_BACK) return;
   Pass back = pass;
   back.cull = GL_FRONT;
   if (pass.cull == GL_NONE) apply(back, frame);
-  draw_range(frame, caps);
+  draw_light_caps(frame, plan, b, back, caps, colours);
   if (pass.cull == GL_NONE) apply(pass, frame);
 }
 

@@ -160,26 +160,47 @@ Reach reach_of(const ExactAnswers& a, std::size_t pixel, const Depths& depths,
   const Vec4 surface = plane_through(vertex(r[0]), vertex(r[1]), vertex(r[2]));
   const double here = depths.at(surface, q);
   const double surface_slope = depths.slope(surface, q);
-  // How much deeper the polygon is on the pixel's ray, where it covers it and rounding can tell.
+  enum class Covers { no, by_rounding, yes };
+  // Whether the polygon covers the pixel's centre, by how much it is deeper there, and `no` where
+  // rounding of depths cannot tell. Of a polygon seen edge-on no depth is wrong: it has all of
+  // them.
   const auto close_by = [&](const Vec4& A, const Vec4& B, const Vec4& C, double& distance) {
     const Vec4 plane = plane_through(A, B, C);
     distance = depths.at(plane, q) - here;
-    if (!(std::fabs(distance) <=
-          rounding.steps + rounding.pixels * (surface_slope + depths.slope(plane, q)))) {
-      return false;
+    if (std::fabs(distance) >
+        rounding.steps + rounding.pixels * (surface_slope + depths.slope(plane, q))) {
+      return Covers::no;
     }
-    // The line from eye to pixel point crosses the triangle.
-    const double ab = glm::dot(plane_through(v.eye, q, A), B);
-    const double bc = glm::dot(plane_through(v.eye, q, B), C);
-    const double ca = glm::dot(plane_through(v.eye, q, C), A);
-    return (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0);
+    // On which side of its edges the line from eye to pixel point runs, and how far rounding of
+    // corners may move that.
+    bool all_positive = true, all_negative = true, may_positive = true, may_negative = true;
+    for (const auto& [from, to] : {std::pair(A, B), std::pair(B, C), std::pair(C, A)}) {
+      const Vec4 plane_of_edge = plane_through(v.eye, from, to);
+      const double side = glm::dot(plane_of_edge, q);
+      const double moved = rounding.pixels * (std::fabs(glm::dot(plane_of_edge, v.right)) +
+                                              std::fabs(glm::dot(plane_of_edge, v.down)));
+      all_positive &= side >= 0;
+      all_negative &= side <= 0;
+      may_positive &= side >= -moved;
+      may_negative &= side <= moved;
+    }
+    return all_positive || all_negative   ? Covers::yes
+           : may_positive || may_negative ? Covers::by_rounding
+                                          : Covers::no;
   };
   const Vec4 behind = -a.light;
   Reach reach{a.counts[pixel], a.counts[pixel]};
   double distance = 0;
   for (const SilhouetteEdge& e : a.silhouette) {
     const Vec4 A = vertex(e.a), B = vertex(e.b);
-    if (!close_by(A, B, behind, distance)) continue;
+    const Covers covers = close_by(A, B, behind, distance);
+    if (covers == Covers::no) continue;
+    if (covers == Covers::by_rounding || !std::isfinite(distance)) {
+      // Counted or not, of either neighbour's edge.
+      reach.least -= std::abs(e.multiplicity);
+      reach.most += std::abs(e.multiplicity);
+      continue;
+    }
     const bool positive = glm::dot(plane_through(A, B, behind), v.eye) > 0;
     const std::int32_t change = positive ? -e.multiplicity : e.multiplicity;
     // In front of the sample it has been counted and may be missed; behind it the other way round.
@@ -191,11 +212,29 @@ Reach reach_of(const ExactAnswers& a, std::size_t pixel, const Depths& depths,
     if (t == seen || !receives(scene, t)) continue;
     const std::array<Vec4, 3> corners{vertex(o[0]), vertex(o[1]), vertex(o[2])};
     reach.other_surface =
-        close_by(corners[0], corners[1], corners[2], distance) ||
+        close_by(corners[0], corners[1], corners[2], distance) == Covers::yes ||
         depths.passes(corners, static_cast<int>(pixel) % v.width, static_cast<int>(pixel) / v.width,
                       rounding.pixels, here + rounding.steps);
   }
   return reach;
+}
+
+// A receiver's rim passes within `pixels` of the pixel's centre: rounding of corners decides
+// whether the pixel has a sample.
+bool at_rim(const ExactAnswers& a, std::size_t pixel, const Depths& depths, double pixels) {
+  const Scene& scene = *a.view->scene;
+  const int width = a.view->samples.view.width;
+  for (std::uint32_t t = 0; t < scene.mesh.triangles.size(); ++t) {
+    if (!receives(scene, t)) continue;
+    std::array<Vec4, 3> corners;
+    for (int k = 0; k < 3; ++k)
+      corners[std::size_t(k)] = point(scene.mesh.positions[scene.mesh.triangles[t][k]]);
+    if (depths.passes(corners, static_cast<int>(pixel) % width, static_cast<int>(pixel) / width,
+                      pixels, std::numeric_limits<double>::infinity())) {
+      return true;
+    }
+  }
+  return false;
 }
 
 std::uint8_t is_edge_on(const TriMesh& mesh, std::uint32_t triangle, const Light& light) {
@@ -285,8 +324,13 @@ MaskDifference compare_masks(const ExactAnswers& exact, const ShadowMask& drawn,
       ++d.at_edge;
       continue;
     }
-    if (rounding.steps > 0 && state != ShadowMask::kNoSample &&
-        exact.mask.state[k] != ShadowMask::kNoSample) {
+    const bool no_sample =
+        state == ShadowMask::kNoSample || exact.mask.state[k] == ShadowMask::kNoSample;
+    if (no_sample && rounding.pixels > 0 && at_rim(exact, k, depths, rounding.pixels)) {
+      ++d.at_edge;
+      continue;
+    }
+    if (rounding.steps > 0 && !no_sample) {
       const Reach reach = reach_of(exact, k, depths, rounding);
       if (explains(reach, state)) {
         ++d.in_depth;

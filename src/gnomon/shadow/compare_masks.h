@@ -61,7 +61,8 @@ struct Rounding {
   int edge = 1;       // pixels: how far from a sample an answer that is exact there may lie
   double steps = 0;   // of depth: between a sample and a side of the shadow volume
   double pixels = 0;  // and how far either of the two may be moved on the screen, in pixels, which
-                      // makes it deeper or less deep by its slope
+                      // makes it deeper or less deep by its slope; a side that passes so close by
+                      // a sample may cover it or not
 };
 
 struct MaskDifference {
@@ -72,11 +73,13 @@ struct MaskDifference {
   std::uint64_t edge_on = 0;
   std::uint64_t edge_on_differ = 0;
   std::uint64_t differ = 0;
-  // Of these: the answer is exact somewhere within Rounding::edge pixels.
+  // Of these: the answer is exact somewhere within Rounding::edge pixels, or there is a sample in
+  // one of the two only and a surface's rim within Rounding::pixels.
   std::uint64_t at_edge = 0;
   // Of the others: sides so close to the sample that counting them on the other side of it gives
-  // the answer, or another surface so close, in depth or with its rim on the screen, that it may be
-  // the one that is seen.
+  // the answer (those seen edge-on have every depth: they are slivers between corners that were
+  // rounded, and drivers make their depth of what is left of their width), or another surface so
+  // close, in depth or with its rim on the screen, that it may be the one that is seen.
   std::uint64_t in_depth = 0;
   std::uint64_t unexplained = 0;
   struct Unexplained {
