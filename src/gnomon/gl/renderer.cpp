@@ -432,7 +432,11 @@ void Renderer::present() const {
   glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &to);
   const StateGuard guard(state_->support);
   const TargetFormat& f = state_->picture->format;
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, state_->picture->framebuffer.id());
+  // Of several samples OpenGL ES makes one only in the same format.
+  Resolved resolved;
+  if (f.samples > 1) resolved = resolve(*state_->picture);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER,
+                    f.samples > 1 ? resolved.framebuffer.id() : state_->picture->framebuffer.id());
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(to));
   apply(colour_pass(GL_ALWAYS), state_->support);
   glBlitFramebuffer(0, 0, f.width, f.height, 0, 0, f.width, f.height, GL_COLOR_BUFFER_BIT,

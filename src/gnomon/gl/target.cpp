@@ -4,6 +4,13 @@
 #include <string>
 
 namespace gnomon::gl {
+namespace {
+
+GLenum colour_format(const TargetFormat& f) {
+  return f.float_bits == 32 ? GL_RGBA32F : f.float_bits == 16 ? GL_RGBA16F : GL_RGBA8;
+}
+
+}  // namespace
 
 Result<Target> make_target(const TargetFormat& f, const Target* depth_of) {
   Target t;
@@ -20,18 +27,15 @@ Result<Target> make_target(const TargetFormat& f, const Target* depth_of) {
   if (f.samples > 1) {
     t.colour_buffer = Renderbuffer::make();
     glBindRenderbuffer(GL_RENDERBUFFER, t.colour_buffer.id());
-    glRenderbufferStorageMultisample(GL_RENDERBUFFER, f.samples, GL_RGBA8, f.width, f.height);
+    glRenderbufferStorageMultisample(GL_RENDERBUFFER, f.samples, colour_format(f), f.width,
+                                     f.height);
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER,
                               t.colour_buffer.id());
   } else {
     t.colour = Texture2D::make();
     glBindTexture(GL_TEXTURE_2D, t.colour.id());
-    glTexImage2D(GL_TEXTURE_2D, 0,
-                 f.float_bits == 32   ? GL_RGBA32F
-                 : f.float_bits == 16 ? GL_RGBA16F
-                                      : GL_RGBA8,
-                 f.width, f.height, 0, GL_RGBA, f.float_bits > 0 ? GL_FLOAT : GL_UNSIGNED_BYTE,
-                 nullptr);
+    glTexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(colour_format(f)), f.width, f.height, 0,
+                 GL_RGBA, f.float_bits > 0 ? GL_FLOAT : GL_UNSIGNED_BYTE, nullptr);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
@@ -63,28 +67,31 @@ Result<Target> make_target(const TargetFormat& f, const Target* depth_of) {
   return t;
 }
 
+Resolved resolve(const Target& target) {
+  const TargetFormat& f = target.format;
+  Resolved out;
+  out.framebuffer = Framebuffer::make();
+  out.colour_buffer = Renderbuffer::make();
+  glBindRenderbuffer(GL_RENDERBUFFER, out.colour_buffer.id());
+  glRenderbufferStorage(GL_RENDERBUFFER, colour_format(f), f.width, f.height);
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, out.framebuffer.id());
+  glFramebufferRenderbuffer(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER,
+                            out.colour_buffer.id());
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, target.framebuffer.id());
+  glDisable(GL_SCISSOR_TEST);
+  glBlitFramebuffer(0, 0, f.width, f.height, 0, 0, f.width, f.height, GL_COLOR_BUFFER_BIT,
+                    GL_NEAREST);
+  return out;
+}
+
 Image read_colours(const Target& target) {
   const TargetFormat& f = target.format;
   Image image{f.width, f.height, {}};
   image.rgba.resize(std::size_t(f.width) * f.height * 4);
-  Framebuffer resolved;
-  Renderbuffer buffer;
-  GLuint from = target.framebuffer.id();
-  if (f.samples > 1) {
-    resolved = Framebuffer::make();
-    buffer = Renderbuffer::make();
-    glBindRenderbuffer(GL_RENDERBUFFER, buffer.id());
-    glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, f.width, f.height);
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved.id());
-    glFramebufferRenderbuffer(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER,
-                              buffer.id());
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, from);
-    glDisable(GL_SCISSOR_TEST);
-    glBlitFramebuffer(0, 0, f.width, f.height, 0, 0, f.width, f.height, GL_COLOR_BUFFER_BIT,
-                      GL_NEAREST);
-    from = resolved.id();
-  }
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, from);
+  Resolved resolved;
+  if (f.samples > 1) resolved = resolve(target);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER,
+                    f.samples > 1 ? resolved.framebuffer.id() : target.framebuffer.id());
   glPixelStorei(GL_PACK_ALIGNMENT, 4);
   if (f.float_bits > 0) {
     std::vector<float> values(image.rgba.size());

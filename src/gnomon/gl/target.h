@@ -18,7 +18,7 @@ struct TargetFormat {
 struct Target {
   TargetFormat format;
   Framebuffer framebuffer;
-  Texture2D colour;            // RGBA8; of one sample a pixel
+  Texture2D colour;            // of one sample a pixel
   Renderbuffer colour_buffer;  // of several
   Renderbuffer depth;
 };
@@ -27,7 +27,15 @@ struct Target {
 // stencil instead of having its own.
 Result<Target> make_target(const TargetFormat& format, const Target* depth_of = nullptr);
 
-// The colours, resolved to one sample a pixel.
+// The colours in the same format with one sample a pixel; bound for drawing, the target for
+// reading.
+struct Resolved {
+  Framebuffer framebuffer;
+  Renderbuffer colour_buffer;
+};
+Resolved resolve(const Target& target);
+
+// The colours of one sample a pixel.
 Image read_colours(const Target& target);
 
 }  // namespace gnomon::gl
