@@ -100,7 +100,9 @@ void draw_clip_lines(const Frame& frame, const std::vector<glm::vec4>& vertices,
 
 void draw_edges(const Frame& frame) {
   apply(line_pass(GL_ALWAYS), frame);
-  const GLuint program = frame.state->programs.flat.id();
+  const std::optional<glm::dmat4>& inside = frame.camera->keep_inside;
+  const GLuint program =
+      inside ? frame.state->programs.flat_inside.id() : frame.state->programs.flat.id();
   glUseProgram(program);
   set(program, "u_colour", kEdgeColour);
   for (const InstanceSlot& instance : frame.state->instances) {
@@ -110,11 +112,12 @@ void draw_edges(const Frame& frame) {
     std::vector<std::uint32_t> indices;
     for (const auto& e : edges.vertices) indices.insert(indices.end(), {2 * e[0], 2 * e[1]});
     set(program, "u_clip", frame.clip_of(instance));
+    if (inside) set(program, "u_inside", glm::mat4(*inside * instance.to_scene));
     draw_indexed(GL_LINES, mesh.doubled, indices);
   }
 }
 
-void draw_frustum(const Frame& frame, const Camera& other) {
+void draw_frustum(const Frame& frame, const Camera& other, GLenum depth_func) {
   // Corners of its clip space, the far ones perhaps at infinity (w = 0).
   const glm::dmat4 map = frame.camera->clip * glm::inverse(other.clip);
   std::array<glm::vec4, 8> corners;
@@ -126,7 +129,7 @@ void draw_frustum(const Frame& frame, const Camera& other) {
                                  {7, 6}, {6, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
   std::vector<glm::vec4> lines;
   for (const auto& e : kEdges) lines.insert(lines.end(), {corners[e[0]], corners[e[1]]});
-  draw_clip_lines(frame, lines, kFrustumColour, GL_LEQUAL);
+  draw_clip_lines(frame, lines, kFrustumColour, depth_func);
 }
 
 void draw_light_marks(const Frame& frame, std::span<const LightSource> lights) {
@@ -159,12 +162,12 @@ Result<bool> draw_counts(const Frame& frame, const LightPlan& plan) {
   const Result<LitTest> lit = draw_light_mask(frame, plan, nullptr);
   if (!lit) return lit.error();
   constexpr int kMost = 8;  // the last colour is of so many and more
-  Pass p = line_pass(GL_ALWAYS);
+  Pass p = line_pass(GL_GREATER);  // from the far plane: where there is a surface
   p.stencil_test = true;
   p.stencil_func = GL_LEQUAL;  // the reference is at most the count
   for (int k = 1; k <= kMost; ++k) {
     p.stencil_ref = lit.value().ref + k;
-    draw_rectangle(frame, p, count_colour(k, kMost));
+    draw_rectangle(frame, p, count_colour(k, kMost), 1);
     ++frame.stats->other_rectangles;
   }
   return true;
@@ -198,7 +201,7 @@ Result<bool> draw_overlay(const Frame& frame, std::span<const LightSource> light
     for (const LightPlan& plan : plans)
       draw_silhouettes(frame, plan, line_pass(o.edges ? GL_ALWAYS : GL_LEQUAL), kSilhouetteColour);
   }
-  if (o.frustum) draw_frustum(frame, *o.frustum);
+  if (o.frustum) draw_frustum(frame, *o.frustum, o.edges ? GL_ALWAYS : GL_LEQUAL);
   if (o.lights) draw_light_marks(frame, lights);
   return true;
 }
