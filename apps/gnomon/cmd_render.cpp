@@ -9,6 +9,8 @@
 #include <gnomon/gl/renderer.h>
 #include <gnomon/io/png.h>
 #include <gnomon/shadow/cast_shadows.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include "commands.h"
 #include "model_options.h"
@@ -77,16 +79,43 @@ void check_options(const Options& o) {
         fmt::format("pictures are written as PNG: let the file '{}' end in .png", o.output));
 }
 
-// What makes a picture all dark, or empty.
-void warn_of_nothing(Warnings& to, const gl::FrameStats& stats, const ShadowMask& mask) {
-  const auto none = [&](std::uint8_t state) {
-    return std::find(mask.state.begin(), mask.state.end(), state) == mask.state.end();
+// What makes a picture all dark, or empty. `light`: the first one, of which the mask is.
+void warn_of_nothing(Warnings& to, const gl::FrameStats& stats, const ShadowMask& mask,
+                     const Scene& scene, const gl::LightSource& light) {
+  constexpr std::ptrdiff_t kHardlyAny = 1000;  // of so many samples one: rounding lets some through
+  constexpr double kFarAway = 100;             // of the model's diagonal
+  const auto count = [&](std::uint8_t state) {
+    return std::count(mask.state.begin(), mask.state.end(), state);
   };
-  if (none(ShadowMask::kLit) && none(ShadowMask::kShadow)) {
+  const auto lit = count(ShadowMask::kLit), shaded = count(ShadowMask::kShadow);
+  Vec3 lo = scene.mesh.positions.front(), hi = lo;
+  for (const Vec3& p : scene.mesh.positions) {
+    lo = glm::min(lo, p);
+    hi = glm::max(hi, p);
+  }
+  const bool lamp = light.light.w != 0;
+  const Vec3 at = lamp ? Vec3(light.light) / light.light.w : Vec3(light.light);
+  const double away = lamp ? glm::distance(at, glm::clamp(at, lo, hi)) : 0;
+  if (lit + shaded == 0) {
     warn(to, "nothing of the model is in the picture; see --eye, --target and --near", "");
-  } else if (none(ShadowMask::kLit)) {
+  } else if (light.radius > 0 && away > light.radius) {
     warn(to,
-         "the first light reaches nothing in the picture: is it inside a body or below the ground?",
+         fmt::format("the first light ends {:.4g} m from it (radius=), and the model begins {:.4g} "
+                     "m away",
+                     light.radius, away),
+         "");
+  } else if (away > kFarAway * glm::distance(lo, hi)) {
+    warn(to,
+         fmt::format("the first light lies {:.0f} km from the model: --light takes the model's own "
+                     "coordinates",
+                     away / 1000),
+         "");
+  } else if (lit * kHardlyAny < lit + shaded) {
+    warn(to,
+         lamp ? "the first light reaches nothing in the picture: is it inside a body or below the "
+                "ground?"
+              : "the sun reaches nothing in the picture: is the eye inside a body or below "
+                "the ground?",
          "");
   }
   if (stats.moved_lights > 0) {
@@ -116,7 +145,8 @@ std::string drawing_of(const gl::FrameStats& s) {
   std::string text = counted(s.passes, "pass of the scene", "passes of the scene");
   if (s.rectangles > 0)
     text += ", " + counted(s.rectangles, "rectangle", "rectangles") + " to make the mask";
-  if (s.method.samples > 1) text += fmt::format(", {} samples a pixel asked for", s.method.samples);
+  if (s.method.samples > 1)
+    text += fmt::format(", {} samples a pixel asked for (OpenGL may take more)", s.method.samples);
   return text;
 }
 
@@ -187,7 +217,7 @@ void run(const Options& o) {
   const Light& light = lights.lights.front().light;
   if (!o.common.quiet) {
     const Result<ShadowMask> mask = renderer.mask(first, light, {});
-    if (mask) warn_of_nothing(warnings, stats, mask.value());
+    if (mask) warn_of_nothing(warnings, stats, mask.value(), scene, lights.lights.front());
   }
   if (o.check) {
     const ShadowMask ours = take(renderer.mask(first, light, o.frame.method));

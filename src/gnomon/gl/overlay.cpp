@@ -161,7 +161,7 @@ Result<bool> draw_counts(const Frame& frame, const LightPlan& plan) {
     return Error{"Counts are in the stencil: take --method stencil to show them."};
   const Result<LitTest> lit = draw_light_mask(frame, plan, nullptr);
   if (!lit) return lit.error();
-  constexpr int kMost = 8;  // the last colour is of so many and more
+  constexpr int kMost = 8;         // the last colour is of so many and more
   Pass p = line_pass(GL_GREATER);  // from the far plane: where there is a surface
   p.stencil_test = true;
   p.stencil_func = GL_LEQUAL;  // the reference is at most the count

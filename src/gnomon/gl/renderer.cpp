@@ -1,6 +1,7 @@
 #include <gnomon/gl/renderer.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -293,12 +294,18 @@ Result<Renderer> Renderer::create(const Capabilities& capabilities) {
 
 MeshId Renderer::add_mesh(const TriMesh& mesh, std::vector<std::uint8_t> casts,
                           std::vector<std::uint8_t> receives, const Appearance* look) {
+  assert(casts.empty() || casts.size() == mesh.triangles.size());
+  assert(receives.empty() || receives.size() == mesh.triangles.size());
+  for ([[maybe_unused]] const Triangle& t : mesh.triangles)
+    assert(std::max({t[0], t[1], t[2]}) < mesh.positions.size());
   const StateGuard guard(state_->support);
   state_->meshes.push_back({make_gpu_mesh(mesh, std::move(casts), std::move(receives), look), 1});
   return static_cast<MeshId>(state_->meshes.size() - 1);
 }
 
 void Renderer::update_mesh(MeshId mesh, std::span<const Vec3> positions) {
+  assert(mesh < state_->meshes.size());
+  assert(positions.size() == state_->meshes[mesh].gpu.mesh.positions.size());
   const StateGuard guard(state_->support);
   move_vertices(state_->meshes[mesh].gpu, positions);
   ++state_->meshes[mesh].version;
@@ -306,6 +313,7 @@ void Renderer::update_mesh(MeshId mesh, std::span<const Vec3> positions) {
 
 void Renderer::update_mesh_from_buffer(MeshId mesh, unsigned buffer, std::size_t offset,
                                        std::size_t stride) {
+  assert(mesh < state_->meshes.size());
   const StateGuard guard(state_->support);
   std::vector<Vec3> positions(state_->meshes[mesh].gpu.mesh.positions.size());
   const std::size_t bytes = positions.empty() ? 0 : (positions.size() - 1) * stride + 12;
@@ -330,6 +338,7 @@ void Renderer::update_mesh_from_buffer(MeshId mesh, unsigned buffer, std::size_t
 }
 
 InstanceId Renderer::add_instance(MeshId mesh, const glm::dmat4& to_scene) {
+  assert(mesh < state_->meshes.size());
   InstanceSlot slot;
   slot.mesh = mesh;
   slot.to_scene = to_scene;
@@ -339,10 +348,12 @@ InstanceId Renderer::add_instance(MeshId mesh, const glm::dmat4& to_scene) {
 }
 
 void Renderer::move_instance(InstanceId instance, const glm::dmat4& to_scene) {
+  assert(instance < state_->instances.size());
   state_->instances[instance].to_scene = to_scene;
 }
 
 void Renderer::remove_instance(InstanceId instance) {
+  assert(instance < state_->instances.size());
   state_->instances[instance].alive = false;
   state_->instances[instance].volumes.clear();
 }
@@ -513,6 +524,8 @@ Result<FrameStats> Renderer::draw_mask(const Camera& camera, const Light& light,
         "A mask in the screen buffer or of lower resolution needs a framebuffer of its own: take "
         "the stencil or the alpha channel inside another renderer's framebuffer."};
   }
+  if (glGetString(GL_VERSION) == nullptr)
+    return Error{"No OpenGL context is current on this thread."};
   if (!has_usual_clip_space()) {
     return Error{
         "The depth range runs backwards, or glClipControl is not GL_LOWER_LEFT and "

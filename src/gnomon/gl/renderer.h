@@ -90,6 +90,8 @@ class Renderer {
   ~Renderer();
 
   // A mesh that casts and receives; `casts`, `receives`: one flag per triangle, empty: all do.
+  // Preconditions here and below: ids that were given out, indices of vertices that there are,
+  // finite numbers.
   // `look`: materials, pictures, normals; none: white.
   MeshId add_mesh(const TriMesh& mesh, std::vector<std::uint8_t> casts = {},
                   std::vector<std::uint8_t> receives = {}, const Appearance* look = nullptr);
