@@ -1,4 +1,4 @@
-// The tree against brute force: the same edges with the same multiplicities, whatever the mesh and
+// The trees against brute force: the same edges with the same multiplicities, whatever the mesh and
 // the light.
 #include <gtest/gtest.h>
 
@@ -10,6 +10,7 @@
 #include "soup.h"
 
 #include <gnomon/silhouette/edge_tree.h>
+#include <gnomon/silhouette/hextree.h>
 #include <gnomon/silhouette/light_sides.h>
 
 namespace gnomon {
@@ -77,13 +78,16 @@ void expect_same(const TriMesh& mesh, const std::vector<Light>& lights) {
   const EdgeTable table = build_edge_table(mesh);
   const EdgeTree tree = build_edge_tree(mesh, table);
   ExtractionScratch scratch;
-  Silhouette ours, linear;
+  const Hextree hextree = build_hextree(mesh, table, DualForm::facets);
+  Silhouette ours, linear, facets;
   for (std::size_t k = 0; k < lights.size(); ++k) {
     const Silhouette expected = find_silhouette(table, light_sides(mesh, lights[k]));
     find_silhouette(ours, tree, mesh, lights[k], scratch);
     EXPECT_TRUE(same(expected, ours)) << "light " << k;
     find_silhouette_linear(linear, tree, mesh, lights[k], scratch);
     EXPECT_TRUE(same(expected, linear)) << "light " << k << ", every leaf";
+    find_silhouette(facets, hextree, mesh, lights[k]);
+    EXPECT_TRUE(same(expected, facets)) << "light " << k << ", the paper's tree";
   }
 }
 
@@ -215,6 +219,32 @@ TEST(EdgeTree, OfADeformedMeshIsRightAfterItsPlanesAreRefreshed) {
     find_silhouette(ours, tree, m, light, scratch);
     EXPECT_TRUE(same(find_silhouette(table, light_sides(m, light)), ours));
   }
+}
+
+// On a box the means of three facets' normals point out of the corners: the contour between them is
+// not that of the facets. On a fine sphere nearly.
+TEST(Hextree, OfVerticesFindsTheContourOfASmoothSurfaceNotOfFacets) {
+  const Light light(1, 2, 3, 0);
+  TriMesh box;
+  test::add_box(box, {0, 0, 0}, {1, 1, 1});
+  box = test::scene_of(box).mesh;
+  const EdgeTable of_box = build_edge_table(box);
+  Silhouette out;
+  find_silhouette(out, build_hextree(box, of_box, DualForm::vertices), box, light);
+  EXPECT_FALSE(same(find_silhouette(of_box, light_sides(box, light)), out));
+  std::vector<int> ends(box.positions.size(), 0);
+  for (const SilhouetteEdge& e : out) {
+    ++ends[e.a];
+    ++ends[e.b];
+  }
+  EXPECT_TRUE(std::any_of(ends.begin(), ends.end(), [](int n) { return n % 2 != 0; }));
+
+  const TriMesh m = sphere(100);
+  const EdgeTable table = build_edge_table(m);
+  const std::size_t exact = find_silhouette(table, light_sides(m, light)).size();
+  find_silhouette(out, build_hextree(m, table, DualForm::vertices), m, light);
+  EXPECT_GT(2 * out.size(), exact);  // those that cross the contour, not those along it
+  EXPECT_LT(out.size(), 2 * exact);
 }
 
 TEST(EdgeTree, LooksAtFewLeavesOfASmoothMesh) {
