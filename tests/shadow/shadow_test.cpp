@@ -77,6 +77,35 @@ TEST(ShadowProfile, IsTheSumOfItsMasks) {
   EXPECT_EQ(sum, p.shadow_ticks);
 }
 
+// Many lights at once find their silhouettes in a tree, single ones by brute force.
+TEST(CountShaded, ManyLightsAtOnceShadeWhatEachShadesAlone) {
+  for (const bool all_receive : {true, false}) {
+    TriMesh m;
+    test::add_ground(m, 12);
+    test::add_soup(m, 60, 8, 0, 4);
+    for (int k = 0; k < 12; ++k)
+      test::add_box(m, {k - 6.0, 2 * (k % 5) - 5.0, 0}, {k - 5.5, 2 * (k % 5) - 4.0, 1.0 + k % 4});
+    Scene s = test::scene_of(m);
+    if (!all_receive) {
+      s.surfaces.push_back(s.surfaces[0]);
+      s.surfaces[1].receives = false;
+      for (std::size_t t = 20; t < 60; ++t) s.surface_of[t] = 1;
+    }
+    const View view = plan_view({-10, -10, 10, 10}, 0.5, 0);
+    const Casters casters = prepare_casters(s);
+    const Receivers receivers = visible_surfaces(s, view);
+    std::vector<Light> lights;
+    for (int k = 0; k < 250; ++k)
+      lights.push_back(Light(std::cos(0.1 * k), std::sin(0.1 * k), 0.02 + 0.01 * (k % 40), 0));
+    std::vector<std::uint32_t> sums(receivers.triangle.size(), 0);
+    for (const Light& light : lights) {
+      const ShadowMask mask = cast_shadows(casters, receivers, light);
+      for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += mask.state[k] == ShadowMask::kShadow;
+    }
+    EXPECT_EQ(count_shaded(casters, receivers, lights), sums);
+  }
+}
+
 TEST(ShadowProfile, SceneWithoutPlaceIsAnErrorThatSaysSo) {
   Scene s = tower();
   s.frame.place.reset();

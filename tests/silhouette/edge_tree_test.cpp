@@ -16,15 +16,10 @@
 namespace gnomon {
 namespace {
 
-void sort(Silhouette& s) {
-  std::sort(s.begin(), s.end(), [](const SilhouetteEdge& a, const SilhouetteEdge& b) {
-    return a.a != b.a ? a.a < b.a : a.b < b.b;
-  });
-}
-
-bool same(Silhouette a, Silhouette b) {
-  sort(a);
-  sort(b);
+// Precondition: `a` is in the table's order.
+bool same(const Silhouette& a, Silhouette b) {
+  Silhouette scratch;
+  sort_as_table(b, scratch);
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                     [](const SilhouetteEdge& x, const SilhouetteEdge& y) {
                       return x.a == y.a && x.b == y.b && x.multiplicity == y.multiplicity;

@@ -1,5 +1,8 @@
 #include <gnomon/silhouette/silhouette.h>
 
+#include <algorithm>
+#include <array>
+
 namespace gnomon {
 
 Silhouette find_silhouette(const EdgeTable& edges, const std::vector<std::int8_t>& sides) {
@@ -14,6 +17,28 @@ Silhouette find_silhouette(const EdgeTable& edges, const std::vector<std::int8_t
     if (m != 0) silhouette.push_back({edges.vertices[k][0], edges.vertices[k][1], m});
   }
   return silhouette;
+}
+
+void sort_as_table(Silhouette& silhouette, Silhouette& scratch) {
+  // By a in steps of eleven bits; then by b among the few of one a.
+  constexpr int kBits = 11;
+  constexpr std::uint32_t kMask = (1u << kBits) - 1;
+  std::uint32_t largest = 0;
+  for (const SilhouetteEdge& e : silhouette) largest = std::max(largest, e.a);
+  scratch.resize(silhouette.size());
+  std::array<std::uint32_t, kMask + 2> first;
+  for (int shift = 0; shift < 32 && largest >> shift != 0; shift += kBits) {
+    first.fill(0);
+    for (const SilhouetteEdge& e : silhouette) ++first[((e.a >> shift) & kMask) + 1];
+    for (std::size_t k = 0; k < kMask; ++k) first[k + 1] += first[k];
+    for (const SilhouetteEdge& e : silhouette) scratch[first[(e.a >> shift) & kMask]++] = e;
+    silhouette.swap(scratch);
+  }
+  for (std::size_t begin = 0, end = 0; begin < silhouette.size(); begin = end) {
+    while (end < silhouette.size() && silhouette[end].a == silhouette[begin].a) ++end;
+    std::sort(silhouette.begin() + std::ptrdiff_t(begin), silhouette.begin() + std::ptrdiff_t(end),
+              [](const SilhouetteEdge& x, const SilhouetteEdge& y) { return x.b < y.b; });
+  }
 }
 
 }  // namespace gnomon

@@ -23,4 +23,9 @@ using Silhouette = std::vector<SilhouetteEdge>;  // ordered as in the EdgeTable
 // `sides`: light_sides() of the mesh that `edges` was built from.
 Silhouette find_silhouette(const EdgeTable& edges, const std::vector<std::int8_t>& sides);
 
+// Brings edges that were found in another order to that of the EdgeTable, in time linear in them:
+// neighbours on the mesh are neighbours in what is made of them. `scratch` is overwritten.
+// Precondition: no edge comes twice.
+void sort_as_table(Silhouette& silhouette, Silhouette& scratch);
+
 }  // namespace gnomon
