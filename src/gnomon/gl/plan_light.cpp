@@ -160,13 +160,12 @@ glm::mat4 projection(const Light& light, const Method& m, const std::optional<Bo
 }
 
 // Precondition: `rows` of the matrix from the mesh's coordinates to clip space.
-void find_cuts(LightPlan::OfInstance& out, const glm::dmat4& rows, const GpuMesh& mesh) {
+void find_planes(LightPlan::OfInstance& out, const glm::dmat4& rows, const GpuMesh& mesh) {
   if (!(mesh.caster_lo.x <= mesh.caster_hi.x)) return;
   for (const Vec3& corner : corners_of({mesh.caster_lo, mesh.caster_hi})) {
     out.beyond_far |= glm::dot(rows[3] - rows[2], point(corner)) < 0;
-    out.cut |= glm::dot(rows[3] + rows[2], point(corner)) < 0;
+    out.before_near |= glm::dot(rows[3] + rows[2], point(corner)) < 0;
   }
-  out.cut |= out.beyond_far;
 }
 
 }  // namespace
@@ -233,7 +232,7 @@ Result<LightPlan> plan_light(const Frame& frame, const Light& asked, double radi
     const SceneBox near_box = box_of(rectangle);
     out.near = near_clip_volume(rectangle, out.light);
     const SceneBox light_box{Vec3(out.light), Vec3(out.light)};
-    find_cuts(out, glm::transpose(camera.clip * instance.to_scene), mesh);
+    find_planes(out, glm::transpose(camera.clip * instance.to_scene), mesh);
     if (target.foreign || culls_back_faces(frame, instance, mesh))
       out.caps_in_front = CapsInFront::seen_from_behind;
     out.parts.resize(mesh.parts.parts.size());

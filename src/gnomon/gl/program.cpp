@@ -1,6 +1,7 @@
 #include <gnomon/gl/program.h>
 
 #include <array>
+#include <iterator>
 #include <vector>
 
 #include <glm/gtc/type_ptr.hpp>
@@ -116,6 +117,14 @@ Result<Programs> compile_programs() {
     Result<ProgramHandle> made = compile(item.name, item.vertex, item.fragment, item.defines);
     if (!made) return made.error();
     *item.to = std::move(made).value();
+  }
+  const char* forms[] = {"", "#define SHADER\n", "#define BLEND\n", "#define BLEND\n"};
+  for (std::size_t k = 0; k < std::size(forms) && epoxy_is_desktop_gl(); ++k) {
+    Result<ProgramHandle> made =
+        compile("volume, clipped by the near plane", kVolumeVertex, kColourFragment,
+                std::string("#define FACES\n#define NEAR_CLIP\n") + forms[k]);
+    if (!made) return made.error();
+    p.volume_near_clip[k] = std::move(made).value();
   }
   return p;
 }

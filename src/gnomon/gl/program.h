@@ -44,6 +44,8 @@ struct Programs {
   ProgramHandle volume[4];  // by Extrusion
   // Likewise; nothing before the plane u_keep of clip space.
   ProgramHandle volume_cut[4];
+  // Likewise; clipped by the near plane as GL_CLIP_DISTANCE0. Desktop OpenGL alone.
+  ProgramHandle volume_near_clip[4];
   ProgramHandle near_light;     // casters as the light sees them on the near plane (ZP+)
   ProgramHandle volume_inside;  // extruded in the shader; nothing outside another camera's frustum
   ProgramHandle flat_inside;    // likewise

@@ -92,8 +92,7 @@ struct LightPlan {
     Vec4 receivers{0, 0, 0, 1};  // likewise: see update_lists()
     std::vector<PartPlan> parts;
     CapsInFront caps_in_front = CapsInFront::none;
-    bool cut = false;         // casters reach before the near or beyond the far plane
-    bool beyond_far = false;  // they reach beyond the far plane
+    bool before_near = false, beyond_far = false;  // casters reach there
   };
   std::vector<OfInstance> instances;  // by InstanceId; empty parts where not alive
   std::optional<SceneBox> receivers;  // nothing else is seen, if known

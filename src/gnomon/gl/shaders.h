@@ -26,6 +26,9 @@ out vec4 v_inside;
 uniform vec4 u_keep;
 out vec2 v_beyond;
 #endif
+#ifdef NEAR_CLIP
+out float gl_ClipDistance[1];
+#endif
 invariant gl_Position;
 void main() {
 #if defined(SHADER)
@@ -39,6 +42,9 @@ void main() {
   gl_Position = u_clip * p;
 #ifdef INSIDE
   v_inside = u_inside * p;
+#endif
+#ifdef NEAR_CLIP
+  gl_ClipDistance[0] = gl_Position.z + gl_Position.w;
 #endif
 #ifdef CUT
   float beyond = dot(u_keep, gl_Position);

@@ -2,6 +2,7 @@
 #include <gnomon/gl/volume_batches.h>
 
 #include <cstdint>
+#include <utility>
 
 #include <glm/matrix.hpp>
 
@@ -25,13 +26,14 @@ void draw_range(const Frame& frame, const IndexRange& range, GLenum primitive = 
   frame.stats->volume_triangles += range.count / 3;
 }
 
-enum class Kept { all, from_near, beyond_far };
+enum class Kept { all, from_near, beyond_far, near_clip };
 
 // The program that is used is left used.
 GLuint volume_program(const Frame& frame, const LightPlan& plan, Kept kept) {
   const Programs& programs = frame.state->programs;
   const auto form = static_cast<std::size_t>(plan.method.extrusion);
   if (kept == Kept::all) return programs.volume[form].id();
+  if (kept == Kept::near_clip) return programs.volume_near_clip[form].id();
   const GLuint program = programs.volume_cut[form].id();
   glUseProgram(program);
   set(program, "u_keep", kept == Kept::from_near ? glm::vec4(0, 0, 1, 1) : glm::vec4(0, 0, 1, -1));
@@ -42,7 +44,8 @@ GLuint volume_program(const Frame& frame, const LightPlan& plan, Kept kept) {
 // they are just behind whatever lies there and is seen from its lit side, and just before what is
 // seen from its unlit one, which count_unlit_receivers() shades; so where such triangles receive,
 // these sides (no others: their shadows' edges would move) are drawn a little farther away than
-// they are: by the rounding of depths, and that of corners to a 256th of a pixel.
+// they are: by the rounding of depths, and that of corners to a 256th of a pixel. So are light caps
+// that near or far plane cuts.
 constexpr float kOffsetSlope = 1.0f / 256, kOffsetSteps = 2;
 
 }  // namespace
@@ -91,24 +94,48 @@ void draw_caps(const Frame& frame, const std::array<IndexRange, kListKinds>& ran
 
 namespace {
 
-// Light caps must be as deep as their surfaces to the last bit, so where surfaces are cut by the
-// near or far plane, they are cut likewise, not clamped. Nothing is missing before the near plane,
-// where neither way of counting counts a cap; but what lies beyond the far plane is behind the
-// picture, for z-fail to count.
-void draw_light_caps(const Frame& frame, const LightPlan& plan, const Batch& b, const Pass& pass,
-                     const IndexRange& caps, const FaceColours& colours) {
-  if (!pass.depth_clamp || !b.of->plan->cut || caps.count == 0) return draw_range(frame, caps);
-  Pass clipped = pass;
-  clipped.depth_clamp = false;
-  apply(clipped, frame);
-  draw_range(frame, caps);
-  apply(pass, frame);
-  if (!b.z_fail || !b.of->plan->beyond_far) return;
-  const GLuint program = volume_program(frame, plan, Kept::beyond_far);
+// Draws with another program than use_volumes() took, and goes back to that.
+void draw_with(const Frame& frame, const LightPlan& plan, const Batch& b, Kept kept,
+               const IndexRange& range, const FaceColours& colours) {
+  const GLuint program = volume_program(frame, plan, kept);
   use_volumes(frame, *b.of, program);
   set_colours(program, colours);
-  draw_range(frame, caps);
+  draw_range(frame, range);
   use_volumes(frame, plan, *b.of, b.z_fail);
+}
+
+// Light caps must be as deep as their surfaces, though they are clamped where surfaces are clipped.
+// What lies before the near plane is clipped alike: neither way of counting counts a cap there, and
+// its corners may be so far off that no depth of the whole polygon is right. What lies beyond the
+// far plane is behind the picture, and z-fail counts it: so nothing may be clipped there, also not
+// at a seam. Cut by another unit, or reaching beyond, a polygon is as deep as its surface to few
+// steps only, and is moved away by as many.
+void draw_light_caps(const Frame& frame, const LightPlan& plan, const Batch& b, const Pass& pass,
+                     const IndexRange& caps, const FaceColours& colours) {
+  const auto& [before_near, beyond_far] =
+      std::pair(b.of->plan->before_near, b.of->plan->beyond_far);
+  if (!pass.depth_clamp || caps.count == 0 || !(before_near || beyond_far))
+    return draw_range(frame, caps);
+  if (before_near && !epoxy_is_desktop_gl()) {
+    // There are no clip distances: all is clipped, and what lies beyond is drawn once more. Single
+    // pixels along the far plane may be counted twice or never.
+    Pass clipped = pass;
+    clipped.depth_clamp = false;
+    apply(clipped, frame);
+    draw_with(frame, plan, b, Kept::all, caps, colours);
+    apply(pass, frame);
+    if (b.z_fail && beyond_far) draw_with(frame, plan, b, Kept::beyond_far, caps, colours);
+    return;
+  }
+  offset_depth(kOffsetSlope, kOffsetSteps);
+  if (before_near) {
+    glEnable(GL_CLIP_DISTANCE0);
+    draw_with(frame, plan, b, Kept::near_clip, caps, colours);
+    glDisable(GL_CLIP_DISTANCE0);
+  } else {
+    draw_range(frame, caps);
+  }
+  offset_depth(0, 0);
 }
 
 }  // namespace
