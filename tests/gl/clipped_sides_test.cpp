@@ -227,5 +227,39 @@ TEST(CutSurfaces, AreNotDarkenedByTheirOwnCapsUnderDepthClamp) {
   EXPECT_GT(cut, 1000);
 }
 
+int shaded(const ShadowMask& mask) {
+  return static_cast<int>(std::count(mask.state.begin(), mask.state.end(), ShadowMask::kShadow));
+}
+
+// The near plane cuts lit ground along a row of pixel centres.
+TEST(CutSurfaces, StayLitInTheRowWhereTheNearPlaneCutsThem) {
+  TriMesh m;
+  test::add_ground(m, 60);
+  Stage stage = stage_of(test::scene_of(std::move(m)));
+  const View view = orthographic_view({0, -20, 8}, {0, 0, 0}, {0, 0, 1}, 30, 160, 120);
+  for (const Count count : {Count::automatic, Count::z_fail}) {
+    Method method;
+    method.count = count;
+    method.reach = Reach::bounded;
+    const Camera camera = camera_of(view, {6.563, 206.563});
+    EXPECT_EQ(shaded(stage.renderer.mask(camera, Light(.3, .2, 1, 0), method).value()), 0);
+  }
+}
+
+// The far plane cuts ground that a lit wall hides: its caps are counted once on either side.
+TEST(CutSurfaces, ThatAreHiddenDarkenNothingAlongTheFarPlane) {
+  TriMesh m;
+  test::add_quad(m, {-30, 10, -20}, {30, 10, -20}, {30, 10, 20}, {-30, 10, 20});
+  test::add_quad(m, {-40, 11, -3}, {40, 11, -3}, {40, 90, -3}, {-40, 90, -3});
+  Stage stage = stage_of(test::scene_of(std::move(m)));
+  Method method;
+  method.count = Count::z_fail;
+  for (const double z : {1.75, 2.555, 2.0}) {
+    const View view = perspective_view({0, -2, z}, {0, 10, z}, {0, 0, 1}, 0.9, 320, 240);
+    const Camera camera = camera_of(view, {1.0, 40});
+    EXPECT_EQ(shaded(stage.renderer.mask(camera, Light(-.3, -1, .4, 0), method).value()), 0) << z;
+  }
+}
+
 }  // namespace
 }  // namespace gnomon::gl

@@ -269,13 +269,13 @@ TEST(Edges, SamplesOnThemAreToldApart) {
   }
 }
 
-// A plate shades the ground from x = -10 to 0, and below it the shadow of an upright wall begins a
+// A plate shades the ground from x = -10 to 10, and below it the shadow of an upright wall begins a
 // thousandth of a pixel from the pixel centres of one row: its side is seen edge-on, and may be
 // counted there at any depth, but not in the next row.
 TEST(Explanations, OfSidesSeenEdgeOnHoldOnlyWhereTheyPass) {
   TriMesh m;
   test::add_ground(m, 40);
-  test::add_quad(m, {10, -8, 10}, {20, -8, 10}, {20, 8, 10}, {10, 8, 10});
+  test::add_quad(m, {10, -8, 10}, {30, -8, 10}, {30, 8, 10}, {10, 8, 10});
   test::add_quad(m, {4, 0.501, 1}, {4, 3.6, 1}, {4, 3.6, 3}, {4, 0.501, 3});
   const Scene scene = test::scene_of(std::move(m));
   const Casters casters = prepare_casters(scene);
@@ -294,6 +294,7 @@ TEST(Explanations, OfSidesSeenEdgeOnHoldOnlyWhereTheyPass) {
   EXPECT_EQ(made_lit(-2, 0).in_depth, 1u);
   EXPECT_EQ(made_lit(-2, -1).unexplained, 1u);  // a row farther
   EXPECT_EQ(made_lit(-2, 1).unexplained, 1u);   // in both shadows
+  EXPECT_EQ(made_lit(6, 0).unexplained, 1u);    // before the wall, where no side begins
 }
 
 // 340 layers, each `rise` above the one before.

@@ -347,7 +347,7 @@ TEST(State, EveryCallLeavesAnEnginesStateAsItWas) {
     floats.insert(floats.end(), {float(p.x), float(p.y), float(p.z)});
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(floats.size() * sizeof(float)),
                floats.data(), GL_STATIC_DRAW);
-  renderer.update_mesh_from_buffer(id, engine.buffers[2], 0, 12);
+  EXPECT_TRUE(renderer.update_mesh_from_buffer(id, engine.buffers[2], 0, 12));
   expect_same(before, "update_mesh_from_buffer");
   for (const Method& method : masks()) {
     FrameOptions options;

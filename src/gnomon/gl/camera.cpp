@@ -108,6 +108,15 @@ Result<Camera> camera_of(const glm::dmat4& clip, int width, int height) {
   if (!(std::fabs(det) > 0)) {
     return Error{"The matrix to clip space is singular (its determinant is 0 or not a number)."};
   }
+  // Points of clip space with w = 1 have the reciprocal of their distance from the eye as w in the
+  // scene. (A parallel view the other way round is one from the other side.)
+  const glm::dmat4 back = glm::inverse(clip);
+  const bool perspective = Vec3(glm::transpose(clip)[3]) != Vec3(0);
+  if (perspective && (back * Vec4(0, 0, -1, 1)).w < (back * Vec4(0, 0, 1, 1)).w) {
+    return Error{
+        "The matrix to clip space has reversed depths (its far plane is nearer to the eye than its "
+        "near plane): Gnomon's volumes take nearer depths to be less."};
+  }
   Camera c;
   c.clip = clip;
   c.width = width;

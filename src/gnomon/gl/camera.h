@@ -38,7 +38,8 @@ struct DepthRange {
 Camera camera_of(const View& view, const DepthRange& range);
 
 // From an engine's own matrix (row 4 of a perspective one must not be that of a parallel one),
-// scene coordinates to clip space, depth -1..1. Error: the matrix is singular.
+// scene coordinates to clip space, depth -1..1. Errors: the matrix is singular; a perspective
+// one has reversed depths.
 Result<Camera> camera_of(const glm::dmat4& clip, int width, int height);
 
 // A look into the clip space of another camera, as in Everitt and Kilgard's Figures 2, 3 and 5:

@@ -240,7 +240,8 @@ StateGuard::StateGuard(const PassSupport& support, DepthsOf depths) : support_(s
   // What every pass here relies on.
   glFrontFace(GL_CCW);
   for (const Switch& w : kSwitchTable) {
-    if (there(w.api)) enable(w.what, w.on);
+    const bool depths_depend = w.what == GL_MULTISAMPLE && depths == DepthsOf::caller;
+    if (there(w.api) && !depths_depend) enable(w.what, w.on);
   }
   for (const PixelStore& p : kPixelStoreTable) {
     if (there(p.api)) glPixelStorei(p.what, p.value);

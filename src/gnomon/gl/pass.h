@@ -52,8 +52,9 @@ void apply(const Pass& pass, const PassSupport& support);
 // `units` of the smallest depth step. 0, 0: no more. Passes do not change it.
 void offset_depth(float factor, float units);
 
-// Whose framebuffer is drawn to. Depths in the caller's were drawn in the caller's depth range, and
-// with the caller's provoking vertex, on which their rounding depends (llvmpipe).
+// Whose framebuffer is drawn to. Depths in the caller's were drawn in the caller's depth range,
+// with the caller's provoking vertex, on which their rounding depends (llvmpipe), and per sample or
+// pixel as the caller has it.
 enum class DepthsOf { ours, caller };
 
 // The caller's state: everything that this room touches, taken when made, put back when destroyed.

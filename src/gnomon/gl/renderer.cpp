@@ -311,22 +311,27 @@ void Renderer::update_mesh(MeshId mesh, std::span<const Vec3> positions) {
   ++state_->meshes[mesh].version;
 }
 
-void Renderer::update_mesh_from_buffer(MeshId mesh, unsigned buffer, std::size_t offset,
-                                       std::size_t stride) {
+Result<bool> Renderer::update_mesh_from_buffer(MeshId mesh, unsigned buffer, std::size_t offset,
+                                               std::size_t stride) {
   assert(mesh < state_->meshes.size());
   const StateGuard guard(state_->support);
   std::vector<Vec3> positions(state_->meshes[mesh].gpu.mesh.positions.size());
   const std::size_t bytes = positions.empty() ? 0 : (positions.size() - 1) * stride + 12;
-  glBindBuffer(GL_ARRAY_BUFFER, buffer);
+  GLint64 size = 0;
+  if (glIsBuffer(buffer) == GL_TRUE) {
+    glBindBuffer(GL_ARRAY_BUFFER, buffer);
+    glGetBufferParameteri64v(GL_ARRAY_BUFFER, GL_BUFFER_SIZE, &size);
+  }
+  if (static_cast<std::size_t>(size) < offset + bytes) {
+    return Error{"The buffer of new positions has " + std::to_string(size) + " bytes; " +
+                 std::to_string(positions.size()) + " vertices need " +
+                 std::to_string(offset + bytes) + " with that offset and stride."};
+  }
+  if (positions.empty()) return true;
   const auto* data = static_cast<const unsigned char*>(
       glMapBufferRange(GL_ARRAY_BUFFER, static_cast<GLintptr>(offset),
                        static_cast<GLsizeiptr>(bytes), GL_MAP_READ_BIT));
-  if (data == nullptr) {
-    state_->failure = Error{
-        "The buffer of new positions cannot be read: is it as long as offset, stride and number of "
-        "vertices say?"};
-    return;
-  }
+  if (data == nullptr) return Error{"OpenGL does not let the buffer of new positions be read."};
   for (std::size_t i = 0; i < positions.size(); ++i) {
     float xyz[3];
     std::copy_n(data + i * stride, sizeof(xyz), reinterpret_cast<unsigned char*>(xyz));
@@ -335,10 +340,11 @@ void Renderer::update_mesh_from_buffer(MeshId mesh, unsigned buffer, std::size_t
   glUnmapBuffer(GL_ARRAY_BUFFER);
   move_vertices(state_->meshes[mesh].gpu, positions);
   ++state_->meshes[mesh].version;
+  return true;
 }
 
 InstanceId Renderer::add_instance(MeshId mesh, const glm::dmat4& to_scene) {
-  assert(mesh < state_->meshes.size());
+  assert(mesh < state_->meshes.size() && glm::determinant(to_scene) > 0);
   InstanceSlot slot;
   slot.mesh = mesh;
   slot.to_scene = to_scene;
@@ -348,7 +354,7 @@ InstanceId Renderer::add_instance(MeshId mesh, const glm::dmat4& to_scene) {
 }
 
 void Renderer::move_instance(InstanceId instance, const glm::dmat4& to_scene) {
-  assert(instance < state_->instances.size());
+  assert(instance < state_->instances.size() && glm::determinant(to_scene) > 0);
   state_->instances[instance].to_scene = to_scene;
 }
 
@@ -533,17 +539,22 @@ Result<FrameStats> Renderer::draw_mask(const Camera& camera, const Light& light,
   }
   FrameStats counted;
   const Frame frame{state_.get(), &camera, &counted};
-  GLint stencil_bits = 0, alpha_bits = 0;
   GLint bound = 0;
   glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &bound);
-  glGetFramebufferAttachmentParameteriv(GL_DRAW_FRAMEBUFFER,
-                                        bound == 0 ? GL_STENCIL : GL_STENCIL_ATTACHMENT,
-                                        GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE, &stencil_bits);
-  glGetFramebufferAttachmentParameteriv(GL_DRAW_FRAMEBUFFER,
-                                        bound == 0 ? GL_BACK_LEFT : GL_COLOR_ATTACHMENT0,
-                                        GL_FRAMEBUFFER_ATTACHMENT_ALPHA_SIZE, &alpha_bits);
-  Result<LightPlan> plan = plan_light(frame, light, 0, number, method,
-                                      {stencil_bits != GL_NONE, alpha_bits > 0, 1, true});
+  const GLenum back = epoxy_is_desktop_gl() ? GL_BACK_LEFT : GL_BACK;
+  const auto has = [&](GLenum of_window, GLenum of_object, GLenum bits) {
+    const GLenum attachment = bound == 0 ? of_window : of_object;
+    GLint type = GL_NONE, size = 0;
+    glGetFramebufferAttachmentParameteriv(GL_DRAW_FRAMEBUFFER, attachment,
+                                          GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE, &type);
+    if (type == GL_NONE) return false;
+    glGetFramebufferAttachmentParameteriv(GL_DRAW_FRAMEBUFFER, attachment, bits, &size);
+    return size > 0;
+  };
+  const bool stencil =
+                 has(GL_STENCIL, GL_STENCIL_ATTACHMENT, GL_FRAMEBUFFER_ATTACHMENT_STENCIL_SIZE),
+             alpha = has(back, GL_COLOR_ATTACHMENT0, GL_FRAMEBUFFER_ATTACHMENT_ALPHA_SIZE);
+  Result<LightPlan> plan = plan_light(frame, light, 0, number, method, {stencil, alpha, 1, true});
   if (!plan) return plan.error();
   counted.method = plan.value().method;
   if (counted.method.float_bits > 0) {

@@ -99,11 +99,12 @@ class Renderer {
   // before; equal ones stay equal.
   void update_mesh(MeshId mesh, std::span<const Vec3> positions);
   // The same from a buffer of the caller's: float x, y, z at `offset` + i * `stride` bytes. They
-  // are read back, since silhouettes are found on the CPU.
-  void update_mesh_from_buffer(MeshId mesh, unsigned buffer, std::size_t offset,
-                               std::size_t stride);
+  // are read back, since silhouettes are found on the CPU. Errors: the buffer is shorter than that,
+  // or mapped; the mesh stays as it was.
+  Result<bool> update_mesh_from_buffer(MeshId mesh, unsigned buffer, std::size_t offset,
+                                       std::size_t stride);
 
-  // `to_scene`: rigid motion with or without a uniform scale.
+  // `to_scene`: rigid motion with or without a uniform scale, not mirrored (asserted).
   InstanceId add_instance(MeshId mesh, const glm::dmat4& to_scene = glm::dmat4(1.0));
   void move_instance(InstanceId instance, const glm::dmat4& to_scene);
   void remove_instance(InstanceId instance);
@@ -132,12 +133,15 @@ class Renderer {
   // of the scene, drawn with clip_of() (see there) in the viewport, depth range and provoking
   // vertex that are set; nearer depths are less. Afterwards a sample is in shadow where, by
   // method.mask, in the stencil (stencil & lit_bits) > lit_at_most, see FrameStats; or where alpha
-  // is below one half. Colours (alpha: rgb) and depths are not touched. Shadows fall on whatever is
-  // in the depths; if all of that was added here, Reach::bounded saves time. Errors: decide()'s
-  // reasons; a screen mask or one of lower resolution, or one in floats (see Method), which need a
-  // framebuffer of ours; a clip space that is not OpenGL's usual one. Precondition: no query and no
-  // transform feedback is active.
-  // `number`: which of the frame's lights, 0 and up: each keeps its volumes from frame to frame.
+  // is below one half. Colours (alpha: rgb) and depths are not touched; of
+  // further colour attachments alpha is undefined then, unless glDrawBuffers leaves them out.
+  // Shadows fall on whatever is in the depths; if all of that was added here, Reach::bounded saves
+  // time. What was added and receives is expected to be there: a caster that is not drawn
+  // (transparent, cut away, behind a clip plane of the caller's) must not be one that receives.
+  // Errors: decide()'s reasons; a screen mask or one of lower resolution, or one in floats (see
+  // Method), which need a framebuffer of ours; a clip space that is not OpenGL's usual one.
+  // Precondition: no query and no transform feedback is active. `number`: which of the frame's
+  // lights, 0 and up: each keeps its volumes from frame to frame.
   Result<FrameStats> draw_mask(const Camera& camera, const Light& light, const Method& method,
                                std::uint32_t number = 0);
 

@@ -189,6 +189,28 @@ Reach reach_of(const ExactAnswers& a, std::size_t pixel, const Depths& depths,
                                           : Covers::no;
   };
   const Vec4 behind = -a.light;
+  // Of a side seen edge-on, a line on the screen from its edge to where the point behind is:
+  // whether the sample lies between, to `pixels`. The line of A + t behind runs in one direction
+  // for all t.
+  const auto beside = [&](const Vec4& A, const Vec4& B) {
+    const Vec4 far_end = behind * depths.rows;
+    const Vec2 half(v.width / 2.0, v.height / 2.0);
+    const auto on_screen = [&](const Vec4& c) {
+      return Vec2((c.x / c.w + 1) * half.x - static_cast<int>(pixel) % v.width - 0.5,
+                  (1 - c.y / c.w) * half.y - static_cast<int>(pixel) / v.width - 0.5);
+    };
+    for (const Vec4& corner : {A, B}) {
+      const Vec4 c = corner * depths.rows;
+      if (!(c.w > 0)) return true;
+      const Vec2 run =
+          Vec2(far_end.x * c.w - c.x * far_end.w, c.y * far_end.w - far_end.y * c.w) * half;
+      const double slack = rounding.pixels * glm::length(run);
+      const bool begun = glm::dot(-on_screen(c), run) >= -slack;
+      const bool ended = far_end.w > 0 && glm::dot(on_screen(far_end), run) < -slack;
+      if (begun && !ended) return true;
+    }
+    return false;
+  };
   Reach reach{a.counts[pixel], a.counts[pixel]};
   double distance = 0;
   for (const SilhouetteEdge& e : a.silhouette) {
@@ -196,6 +218,7 @@ Reach reach_of(const ExactAnswers& a, std::size_t pixel, const Depths& depths,
     const Covers covers = close_by(A, B, behind, distance);
     if (covers == Covers::no) continue;
     if (covers == Covers::by_rounding || !std::isfinite(distance)) {
+      if (!beside(A, B)) continue;
       // Counted or not, of either neighbour's edge.
       reach.least -= std::abs(e.multiplicity);
       reach.most += std::abs(e.multiplicity);
