@@ -243,8 +243,8 @@ void run(const Options& o) {
         100 * gl::bound_of(checked.method).share);
     if (cut) {
       fmt::print(
-          "  {} more show nothing behind the plane of --near, or another surface may be seen "
-          "there: the exact mask is of the whole model\n",
+          "  {} more have a sample in one of the two only: --near cuts the picture, the exact "
+          "mask is of the whole model\n",
           not_seen);
     }
   }
