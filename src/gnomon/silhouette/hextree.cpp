@@ -71,8 +71,9 @@ std::size_t child_of(const Hextree::Node& n, const Plane& a, const Plane& b) {
   return child;
 }
 
-void insert(Hextree& tree, std::uint32_t edge, const Plane& a, const Plane& b) {
+void insert(Hextree& tree, std::uint32_t edge, const Plane& a, const Plane& b, double error) {
   std::uint32_t node = 0;
+  tree.nodes[0].error = std::max(tree.nodes[0].error, error);
   for (int level = 0; level < Hextree::kDepth; ++level) {
     const std::size_t k = child_of(tree.nodes[node], a, b);
     if (k == 16) break;
@@ -87,6 +88,7 @@ void insert(Hextree& tree, std::uint32_t edge, const Plane& a, const Plane& b) {
       tree.nodes[node].child[k] = next;
     }
     node = next;
+    tree.nodes[node].error = std::max(tree.nodes[node].error, error);
   }
   tree.nodes[node].edges.push_back(edge);
 }
@@ -96,7 +98,8 @@ struct Search {
   const TriMesh& mesh;
   Light light;
   std::array<double, 4> l;  // in the tree's coordinates
-  double slack;             // what rounding may change of l . q
+  double slack;             // what rounding may change of l . q, the dual's own error aside
+  double sum;               // of |l|
   std::size_t corner = 0;   // the paper's index of the corner where l . v is least
   Silhouette& out;
   ExtractionStats& stats;
@@ -111,7 +114,7 @@ struct Search {
     const std::uint32_t index = facets ? key >> 1 : key;
     const double v = dot(tree.duals[index].q);
     int s = v >= 0 ? 1 : -1;
-    if (facets && !(std::fabs(v) > slack)) {
+    if (facets && !(std::fabs(v) > slack + sum * tree.duals[index].error)) {
       const Triangle& t = mesh.triangles[index];
       s = light_side(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]], light,
                      stats.exact);
@@ -134,7 +137,8 @@ struct Search {
       least[k] = n.lo[k] + (high ? n.width : 0.0);
       most[k] = n.lo[k] + (high ? 0.0 : n.width);
     }
-    return !(dot(least) > slack) && !(dot(most) < -slack);
+    const double error = slack + sum * n.error;
+    return !(dot(least) > error) && !(dot(most) < -error);
   }
 
   void visit(std::uint32_t node) {
@@ -163,7 +167,6 @@ Hextree build_hextree(const TriMesh& mesh, const EdgeTable& edges, DualForm form
   const bool facets = form == DualForm::facets;
   tree.duals = facets ? duals_of_triangles(mesh, tree.centre, tree.size)
                       : duals_of_vertices(mesh, tree.centre, tree.size);
-  for (const Hextree::Dual& d : tree.duals) tree.slack = std::max(tree.slack, d.error);
   Hextree::Node root;
   root.lo.fill(-1);
   tree.nodes.push_back(root);
@@ -190,8 +193,9 @@ Hextree build_hextree(const TriMesh& mesh, const EdgeTable& edges, DualForm form
       return facets ? Plane(tree.duals[key >> 1], (key & 1) != 0) : Plane(tree.duals[key], false);
     };
     tree.edges.push_back(edge);
+    const auto error = [&](std::uint32_t key) { return tree.duals[facets ? key >> 1 : key].error; };
     insert(tree, static_cast<std::uint32_t>(tree.edges.size() - 1), plane(edge.first),
-           plane(edge.second));
+           plane(edge.second), std::max(error(edge.first), error(edge.second)));
   }
   return tree;
 }
@@ -201,14 +205,13 @@ void find_silhouette(Silhouette& out, const Hextree& tree, const TriMesh& mesh, 
   ExtractionStats own;
   out.clear();
   const DualLight dual = dual_light(light, tree.centre, tree.size);
-  Search search{tree, mesh, light, dual.exact, 0, 0, out, stats != nullptr ? *stats : own};
+  Search search{tree, mesh, light, dual.exact, 0, 0, 0, out, stats != nullptr ? *stats : own};
   search.l[3] *= tree.size;
-  double sum = 0;
   for (std::size_t k = 0; k < 4; ++k) {
-    sum += std::fabs(search.l[k]);
+    search.sum += std::fabs(search.l[k]);
     search.corner = search.corner * 2 + (search.l[k] >= 0 ? 0 : 1);
   }
-  search.slack = sum * (tree.slack + kRounding) + double(dual.slack);
+  search.slack = search.sum * kRounding + double(dual.slack);
   search.visit(0);
   for (std::size_t k = 0; k < tree.always.vertices.size(); ++k) {
     std::int32_t m = 0;

@@ -34,6 +34,7 @@ struct Hextree {
     double width = 2;
     std::array<std::uint32_t, 16> child{};  // 0: none
     std::vector<std::uint32_t> edges;       // that no smaller cube encloses
+    double error = 0;                       // largest one of the duals in it and below
   };
   struct Dual {
     std::array<double, 4> q{};  // of length 1
@@ -48,7 +49,6 @@ struct Hextree {
   DualForm form = DualForm::facets;
   Vec3 centre{0.0};
   double size = 1;          // metres: coordinates are measured in it
-  double slack = 0;         // largest error of a dual
   std::vector<Node> nodes;  // the root first
   std::vector<Dual> duals;  // of triangles, or of vertices
   std::vector<Edge> edges;
