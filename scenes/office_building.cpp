@@ -19,7 +19,7 @@ constexpr Vec3 kYellow{0.90, 0.78, 0.30}, kGreen{0.45, 0.66, 0.42}, kPaleBlue{0.
     kRed{0.78, 0.42, 0.34}, kPaving{0.80, 0.79, 0.76}, kWater{0.48, 0.60, 0.66};
 
 constexpr int kFloors = 20, kModules = 96, kPodiumModules = 144, kPodiumFloors = 2;
-constexpr double kStorey = 3.6, kPodiumStorey = 4.5, kFoot = kPodiumFloors * kPodiumStorey;
+constexpr double kStorey = 3.9, kPodiumStorey = 4.5, kFoot = kPodiumFloors * kPodiumStorey;
 constexpr double kHeight = kFoot + kFloors * kStorey;
 
 // A plan: an oval of half axes a and b, bent about a centre at distance `bend` to the north.
@@ -68,7 +68,7 @@ struct Plan {
 struct Office {
   BodyBuilder b;
   OfficeCasters casters;
-  Plan tower{34, 10.5, 37, 0.16, 0.16}, core{13, 3.6, 37}, podium{47, 21, 60};
+  Plan tower{34, 10.5, 37, 0.16, 0.09}, core{13, 3.6, 37}, podium{44, 18, 56};
 
   void concrete() { b.begin("concrete", "concrete", kGreen); }
   void facade() { b.begin("facade", "facade", kYellow); }
@@ -108,12 +108,14 @@ struct Office {
 
   void ground() {
     const bool casts = casters == OfficeCasters::all;
-    constexpr double kCell = 20;  // 21 x 21 of them, towards where the shadows fall; a canal
+    // 21 x 21 cells, as far as the shadows of the figure's eight hours reach; a canal.
+    constexpr int kAcross = 21;
+    constexpr double kWest = -294, kCell = 28;
     b.begin("ground", "paving", kPaving, casts);
-    b.grid({-210, -130, 0}, kCell, kCell, 21, 11);
-    b.grid({-210, 140, 0}, kCell, kCell, 21, 7);
+    b.grid({kWest, -109, 0}, kCell, 18, kAcross, 11);
+    b.grid({kWest, 134, 0}, kCell, 18, kAcross, 7);
     b.begin("ground", "water", kWater, casts);
-    b.grid({-210, 90, 0}, kCell, 50.0 / 3, 21, 3);
+    b.grid({kWest, 89, 0}, kCell, 15, kAcross, 3);
   }
 
   void skeleton() {
