@@ -55,10 +55,13 @@ inline std::uint64_t decide(const LeafSigns& signs, const EdgeTree& tree,
   return positive;
 }
 
+// +2 where the first plane is positive, -2 where it is not; the other way round if backward.
+// Without a branch, which nothing could predict.
 inline SilhouetteEdge oriented(const EdgeTree::Edge& e, bool first_positive) {
-  const bool backward = (e.b & EdgeTree::kBackward) != 0;
-  return {e.a, e.b & ~EdgeTree::kBackward, first_positive != backward ? 2 : -2};
+  const std::uint32_t up = (e.b >> 31) ^ (first_positive ? 1u : 0u);
+  return {e.a, e.b & ~EdgeTree::kBackward, static_cast<std::int32_t>(up * 4) - 2};
 }
+static_assert(EdgeTree::kBackward == 1u << 31);
 
 // A leaf as it lies in memory. Edges come in whole vectors: those beyond the last have one plane
 // twice, and are never hit.
@@ -184,7 +187,9 @@ std::size_t HitsOf(const EdgeTree& tree, const LeafView& leaf, Extraction& x, st
     const auto one = SignBits(d, low, high, leaf.first_plane + e),
                two = SignBits(d, low, high, leaf.second_plane + e);
     const auto bit = hn::Set(d, 1);
-    const auto number = hn::Iota(d, leaf.head.first_edge + static_cast<std::uint32_t>(e));
+    // (Iota() of what is not constant goes through memory.)
+    const auto number =
+        hn::Add(hn::Iota(d, 0), hn::Set(d, leaf.head.first_edge + static_cast<std::uint32_t>(e)));
     const auto hit = hn::TestBit(hn::Xor(one, two), bit);
     // In a register and stored whole: storing lanes by a mask is slow on some processors.
     hn::StoreU(hn::Compress(hn::Or(number, hn::ShiftLeft<31>(hn::And(one, bit))), hit), d, to + n);
@@ -236,7 +241,7 @@ void Descend(const EdgeTree& tree, Extraction& x) {
 // needed.
 void Leaves(const EdgeTree& tree, const std::vector<std::uint32_t>& leaves, bool prefetch,
             Extraction& x) {
-  constexpr std::size_t kLeavesAhead = 6, kEdgesAhead = 16;
+  constexpr std::size_t kLeavesAhead = 4;
   std::vector<std::uint32_t>& hits = x.scratch->hits;
   std::size_t n = 0;
   for (std::size_t k = 0; k < leaves.size(); ++k) {
@@ -251,8 +256,6 @@ void Leaves(const EdgeTree& tree, const std::vector<std::uint32_t>& leaves, bool
   std::size_t at = out.size();
   out.resize(at + n);
   for (std::size_t k = 0; k < n; ++k) {
-    if (k + kEdgesAhead < n)
-      hwy::Prefetch(tree.edges.data() + (hits[k + kEdgesAhead] & ~kFirstPositive));
     out[at++] = oriented(tree.edges[hits[k] & ~kFirstPositive], (hits[k] & kFirstPositive) != 0);
   }
 }
