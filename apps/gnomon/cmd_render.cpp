@@ -34,6 +34,7 @@ struct Options {
   std::string output = "gnomon.png";
   double near_plane = 0;
   bool check = false;
+  bool samples_given = false;
 };
 
 Picture picture_of(const gl::Image& image) {
@@ -180,6 +181,13 @@ void run(const Options& o) {
   const auto begin = std::chrono::steady_clock::now();
   Picture picture;
   gl::FrameOptions options = o.frame;
+  // Masks in the stencil are as fine as the picture's samples; others would need floats, or one
+  // sample a pixel.
+  constexpr int kSamples = 4;
+  if (!o.samples_given && options.method.mask == gl::MaskIn::stencil &&
+      options.method.mask_scale == 1 && capabilities.max_samples >= kSamples) {
+    options.method.samples = kSamples;
+  }
   const auto shows = [&](const char* what) {
     return std::find(o.show.begin(), o.show.end(), what) != o.show.end();
   };
@@ -310,7 +318,12 @@ void add_render(CLI::App& app) {
       ->capture_default_str()
       ->group("Output");
   add_common(*command, o.common);
-  command->callback([options] { run(*options); });
+  CLI::Option* samples = command->get_option("--samples");
+  samples->default_str("4 where the method can");
+  command->callback([options, samples] {
+    options->samples_given = samples->count() > 0;
+    run(*options);
+  });
 }
 
 }  // namespace gnomon::app

@@ -39,6 +39,10 @@ void add_choice(CLI::App& command, const std::string& name, T& value, std::vecto
       ->group(kGroup);
 }
 
+// With the light from all around (gl::FrameOptions::ambient) a white surface that faces it is
+// white.
+constexpr Vec3 kUsualColour{0.75, 0.75, 0.75};
+
 constexpr const char* kNoLamp =
     "--soft is for lamps, and there is none: suns have sharp shadows here";
 
@@ -141,11 +145,13 @@ void add_render_lights(CLI::App& command, RenderLights& o) {
   command.add_option("--tz", o.one.zone, "Time zone, such as Europe/Vienna, UTC or solar")
       ->group(group);
   command
-      .add_option("--light", o.lights,
-                  "X,Y,Z[,point|sun][,#rrggbb][,radius=METRES]: the place of a lamp (point, the "
-                  "default) in the model's coordinates, z up, or the direction towards a sun; its "
-                  "colour at full brightness (default #ffffff; darker: dimmer); how far a lamp's "
-                  "light reaches (default: everywhere). May be repeated: lights add up")
+      .add_option(
+          "--light", o.lights,
+          "X,Y,Z[,point|sun][,#rrggbb][,radius=METRES]: the place of a lamp (point, the "
+          "default) in the model's coordinates, z up, or the direction towards a sun; its "
+          "colour at full brightness (default #bfbfbf, which with the light from all around "
+          "makes white; darker: dimmer); how far a lamp's light reaches (default: everywhere). May "
+          "be repeated: lights add up")
       ->group(group);
   command
       .add_option("--soft", o.soft,
@@ -169,12 +175,14 @@ ChosenLights choose_lights(const RenderLights& o, const Scene& scene) {
     out.warnings = out.first.warnings;
     gl::LightSource sun;
     sun.light = out.first.light;
+    sun.colour = kUsualColour;
     out.lights = {sun};
     return out;
   }
   bool lamp = false;
   for (const std::string& text : o.lights) {
     gl::LightSource source;
+    source.colour = kUsualColour;
     LightOptions options = o.one;
     options.light = take_looks(text, source);
     check_light_options(options);

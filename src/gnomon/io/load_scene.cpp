@@ -358,6 +358,21 @@ std::optional<Error> place_scene(LoadedScene& loaded, const std::vector<SceneFil
   return std::nullopt;
 }
 
+// Ground that was made is a little darker than the white of models without looks: else a flat roof
+// under a sun is as bright as the ground below it.
+void paint_made_ground(Appearance& a, std::size_t triangles) {
+  constexpr Vec3 kColour{0.74, 0.75, 0.71};
+  const std::size_t before = a.material_of.size();
+  if (before == 0 || before == triangles) return;
+  fill_up(a, triangles);
+  Material ground;
+  ground.name = "made ground";
+  ground.base_colour = kColour;
+  std::fill(a.material_of.begin() + static_cast<std::ptrdiff_t>(before), a.material_of.end(),
+            static_cast<std::uint32_t>(a.materials.size()));
+  a.materials.push_back(std::move(ground));
+}
+
 }  // namespace
 
 Result<LoadedScene> load_scene(const std::vector<std::filesystem::path>& paths,
@@ -402,7 +417,7 @@ Result<LoadedScene> load_scene(const std::vector<std::filesystem::path>& paths,
   auto ground = add_ground(scene, {options.ground, ground_extent(scene, options)});
   if (!ground) return ground.error();
   loaded.ground = std::move(ground).value();
-  fill_up(scene.appearance, scene.mesh.triangles.size());
+  paint_made_ground(scene.appearance, scene.mesh.triangles.size());
   for (const Vec3& v : scene.mesh.positions) {
     if (!(std::fabs(v.x) <= kLargestCoordinate && std::fabs(v.y) <= kLargestCoordinate &&
           std::fabs(v.z) <= kLargestCoordinate)) {
