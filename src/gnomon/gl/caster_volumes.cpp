@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include <gnomon/gl/program.h>
+#include <gnomon/gl/screen_rectangle.h>
 #include <gnomon/silhouette/light_sides.h>
 #include <gnomon/volume/layers.h>
 
@@ -43,14 +44,20 @@ struct Builder {
     return n;
   }
 
+  // What z-pass never draws is not made.
+  std::span<const std::uint32_t> caps_of(std::span<const std::uint32_t> triangles,
+                                         bool z_fail) const {
+    return z_fail || v.all_caps ? triangles : std::span<const std::uint32_t>();
+  }
+
   void append_group(std::uint32_t p, std::span<const std::uint32_t> group_of, std::uint32_t group,
-                    std::span<const std::uint32_t> triangles, std::uint32_t layers) {
+                    std::span<const std::uint32_t> triangles, bool z_fail, std::uint32_t layers) {
     const std::span<const std::uint32_t> edges(m.part_edges.edge.data() + m.part_edges.first[p],
                                                m.part_edges.first[p + 1] - m.part_edges.first[p]);
     silhouette.clear();
     find_part_silhouette(silhouette, m.edges, edges, group_of, group, v.light_side,
                          v.plan[p].casting);
-    append_volume(v.lists, m.mesh, silhouette, triangles, v.light_side, one_point,
+    append_volume(v.lists, m.mesh, silhouette, caps_of(triangles, z_fail), v.light_side, one_point,
                   v.plan[p].casting, form, p, beyond_receivers, scratch, v.grazed_edges);
     note(false, layers);
   }
@@ -72,19 +79,19 @@ struct Builder {
                                      ? 1
                                      : count_casting(part.triangles, plan.casting);
     if (v.most_layers == 0 || layers <= v.most_layers) {
-      append_group(p, m.parts.part_of, p, part.triangles, layers);
+      append_group(p, m.parts.part_of, p, part.triangles, plan.z_fail, layers);
       return;
     }
-    append_chunks(p, part.triangles);
+    append_chunks(p, part.triangles, plan.z_fail);
   }
 
   // Casting triangles of a part in volumes of at most most_layers of them.
-  void append_chunks(std::uint32_t p, std::span<const std::uint32_t> triangles) {
+  void append_chunks(std::uint32_t p, std::span<const std::uint32_t> triangles, bool z_fail) {
     chunk_of.resize(m.mesh.triangles.size(), 0);
     std::vector<std::uint32_t> chunk;
     const auto flush = [&] {
       if (!chunk.empty())
-        append_group(p, chunk_of, chunks, chunk, static_cast<std::uint32_t>(chunk.size()));
+        append_group(p, chunk_of, chunks, chunk, z_fail, static_cast<std::uint32_t>(chunk.size()));
       chunk.clear();
     };
     for (const std::uint32_t t : triangles) {
@@ -102,12 +109,12 @@ struct Builder {
       if ((v.region_z_fail[r] != 0) != z_fail) continue;
       const auto triangles = v.regions.triangles_of(r);
       if (v.most_layers != 0 && triangles.size() > v.most_layers) {
-        append_chunks(m.parts.part_of[triangles[0]], triangles);
+        append_chunks(m.parts.part_of[triangles[0]], triangles, z_fail);
         continue;
       }
-      append_volume(v.lists, m.mesh, v.regions.silhouette_of(r), triangles, v.light_side, one_point,
-                    Casting::all_triangles, form, m.parts.part_of[triangles[0]], beyond_receivers,
-                    scratch, v.grazed_edges);
+      append_volume(v.lists, m.mesh, v.regions.silhouette_of(r), caps_of(triangles, z_fail),
+                    v.light_side, one_point, Casting::all_triangles, form,
+                    m.parts.part_of[triangles[0]], beyond_receivers, scratch, v.grazed_edges);
       note(false, static_cast<std::uint32_t>(triangles.size()));
     }
   }
@@ -131,12 +138,30 @@ std::vector<glm::vec4> extrude(const TriMesh& mesh, const glm::mat4& project) {
   return out;
 }
 
+double farthest_squared(const GpuMesh& m, const Light& light) {
+  const Vec3 l(light);
+  if (light.w == 0) return glm::dot(l, l);
+  double out = 0;
+  for (const Vec3& corner :
+       corners_of({glm::min(m.lo, m.caster_lo), glm::max(m.hi, m.caster_hi)})) {
+    const Vec3 d = l - corner * light.w;
+    out = std::max(out, glm::dot(d, d));
+  }
+  return out;
+}
+
 // The sine of the angle between the triangle's plane and the light, seen from the corner where it
 // is least.
-double sine_to_light(const TriMesh& mesh, std::uint32_t triangle, const Light& light) {
+// Above kNearlyGrazing it may be anything above it. `farthest`: no corner of the mesh is farther
+// from the light, squared (of a directional light: its length).
+double sine_to_light(const TriMesh& mesh, std::uint32_t triangle, const Light& light,
+                     double farthest) {
   const Triangle& t = mesh.triangles[triangle];
   const Vec3 &a = mesh.positions[t[0]], &b = mesh.positions[t[1]], &c = mesh.positions[t[2]];
   const Vec3 l(light), n = glm::cross(b - a, c - a);
+  // Most triangles are far from it, which needs neither root nor all corners.
+  const double height = glm::dot(n, l - a * light.w);
+  if (height * height > 2 * kNearlyGrazing * kNearlyGrazing * glm::dot(n, n) * farthest) return 1;
   double longest = 0;
   for (const Vec3* p : {&a, &b, &c}) {
     const Vec3 d = l - *p * light.w;
@@ -157,8 +182,9 @@ bool update_sides(CasterVolumes& v, const GpuMesh& m, std::uint64_t mesh_version
     v.grazed = false;
     v.grazed_edges.clear();
     v.nearly_grazed.clear();
+    const double farthest = farthest_squared(m, light);
     for (std::uint32_t t = 0; t < m.mesh.triangles.size(); ++t) {
-      const double sine = sine_to_light(m.mesh, t, light);
+      const double sine = sine_to_light(m.mesh, t, light, farthest);
       if (sine <= kNearlyGrazing && m.casts[t] != 0 && m.receives[t] != 0)
         v.nearly_grazed.push_back(t);
       if (sine > kGrazing) continue;
@@ -209,8 +235,8 @@ bool update_sides(CasterVolumes& v, const GpuMesh& m, std::uint64_t mesh_version
 }
 
 bool update_lists(CasterVolumes& v, const GpuMesh& m, const Method& method, const NearClip& near,
-                  const glm::mat4& project, const Vec4& receivers, std::uint32_t most_layers,
-                  bool sides_changed) {
+                  const glm::mat4& project, const Vec4& receivers, bool all_caps,
+                  std::uint32_t most_layers, bool sides_changed) {
   // Not so of a bounding plane across x, which leaves [0][0] at 0 too.
   const glm::vec4 none(0.0f);
   const bool one_point =
@@ -220,7 +246,7 @@ bool update_lists(CasterVolumes& v, const GpuMesh& m, const Method& method, cons
     region_z_fail[r] = may_any_shade_near(near, m.mesh, v.regions.triangles_of(r)) ? 1 : 0;
   if (!sides_changed && v.region_z_fail == region_z_fail && v.extrusion == method.extrusion &&
       v.primitives == method.primitives && v.most_layers == most_layers &&
-      v.one_point == one_point && v.receivers == receivers &&
+      v.one_point == one_point && v.receivers == receivers && v.all_caps == all_caps &&
       (method.extrusion != Extrusion::cpu || v.project == project)) {
     return false;
   }
@@ -231,6 +257,7 @@ bool update_lists(CasterVolumes& v, const GpuMesh& m, const Method& method, cons
   v.one_point = one_point;
   v.project = project;
   v.receivers = receivers;
+  v.all_caps = all_caps;
 
   v.lists = {};
   v.polygon.clear();

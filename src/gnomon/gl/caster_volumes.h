@@ -50,6 +50,7 @@ struct CasterVolumes {
   std::uint32_t most_layers = 0;
   glm::mat4 project{0.0f};
   Vec4 receivers{0, 0, 0, 1};
+  bool all_caps = false;
   bool one_point = false;  // behind all vertices: a directional light's at infinity
   std::vector<std::uint8_t> region_z_fail;  // per region
 
@@ -79,11 +80,12 @@ bool update_sides(CasterVolumes& volumes, const GpuMesh& mesh, std::uint64_t mes
 // Brings lists and buffers up to date. `near`: in the mesh's coordinates, for parts by region.
 // `project`: a vertex (x, y, z, 1) to the point behind it. `receivers`: a plane with the receivers
 // and the near rectangle on its side >= 0, all points behind vertices on the other; sides beyond it
-// are of the dark cap. (0, 0, 0, 1): none is. `most_layers`: volumes of more triangles
+// are of the dark cap. (0, 0, 0, 1): none is. `all_caps`: also those of volumes that are counted
+// z-pass. `most_layers`: volumes of more triangles
 // than that are split; 0: none is. True if they were not.
 bool update_lists(CasterVolumes& volumes, const GpuMesh& mesh, const Method& method,
                   const NearClip& near, const glm::mat4& project, const Vec4& receivers,
-                  std::uint32_t most_layers, bool sides_changed);
+                  bool all_caps, std::uint32_t most_layers, bool sides_changed);
 
 // The ranges of volumes first .. last - 1 in `indices`, list by list.
 std::array<IndexRange, kListKinds> ranges_of(const CasterVolumes& volumes, std::size_t first,

@@ -378,6 +378,7 @@ Result<FrameStats> Renderer::draw(const Camera& camera, std::span<const LightSou
   FrameStats counted;
   const StateGuard guard(state_->support);
   Frame frame{state_.get(), &camera, &counted};
+  frame.whole_volumes = options.overlay.volumes;
   Method wanted = options.method;
   const TargetFacts facts{true, true, static_cast<int>(lights.size())};
   counted.method = wanted;

@@ -54,6 +54,8 @@ struct Frame {
   const Camera* camera = nullptr;
   FrameStats* stats = nullptr;
 
+  bool whole_volumes = false;  // volumes are looked at, with all caps
+
   std::optional<Rect> scissor{};                        // outside it nothing is seen
   std::optional<std::array<double, 2>> depth_bounds{};  // likewise, in 0 .. 1
 

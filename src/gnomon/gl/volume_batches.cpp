@@ -51,8 +51,11 @@ void make_near_caps(const Frame& frame, std::vector<InstanceVolumes>& all) {
 void update_all_lists(const Frame& frame, const LightPlan& plan, Prepared& prepared) {
   for (std::size_t i = 0; i < prepared.all.size(); ++i) {
     InstanceVolumes& v = prepared.all[i];
+    const bool all_caps = frame.whole_volumes || starts_at_near_plane(plan.method) ||
+                          v.plan->caps_in_front != CapsInFront::none;
     if (update_lists(*v.volumes, *v.mesh, plan.method, v.plan->near, v.plan->project,
-                     v.plan->receivers, prepared.grouped ? kGroupLayers : 0, prepared.changed[i])) {
+                     v.plan->receivers, all_caps, prepared.grouped ? kGroupLayers : 0,
+                     prepared.changed[i])) {
       ++frame.stats->rebuilt;
     }
   }
