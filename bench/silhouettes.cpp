@@ -87,8 +87,9 @@ TriMesh subdivided(const TriMesh& mesh) {
 }
 
 TriMesh loaded(const std::string& file) {
-  const LoadOptions usual;
-  Result<LoadedScene> scene = load_scene({std::filesystem::path(file)}, usual);
+  LoadOptions alone;
+  alone.ground = "none";
+  Result<LoadedScene> scene = load_scene({std::filesystem::path(file)}, alone);
   if (!scene) throw std::runtime_error(scene.error().message);
   return std::move(scene.value().scene.mesh);
 }

@@ -15,7 +15,9 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr int kLevel = 32767;        // of 16 bits, from -kLevel to kLevel
-constexpr std::size_t kVector = 16;  // blocks are padded to whole vectors of so many floats
+constexpr std::size_t kVector = EdgeTree::kVector;
+// Of a smooth mesh so many edges have just below kMostPlanes planes.
+constexpr std::uint32_t kFullLeaf = 60;
 // Boxes are widened by this share of their numbers: four products and their sum in float, and the
 // light's and the box's own rounding, are wrong by less (2^-24 each).
 constexpr float kWiden = 0x1p-19F;
@@ -122,8 +124,8 @@ class Sorter {
     return (key & 1) != 0 ? -q : q;
   }
 
-  // Halves by the axis over which the points are spread widest.
-  std::uint32_t split(const Range& r) {
+  // Cuts a range by the axis over which its points are spread widest, `first` of them to one side.
+  std::uint32_t split(const Range& r, std::uint32_t first) {
     float lo[8], hi[8];
     std::fill(lo, lo + 8, kInfinity);
     std::fill(hi, hi + 8, -kInfinity);
@@ -141,10 +143,9 @@ class Sorter {
     keyed_.resize(r.size());
     for (std::uint32_t k = 0; k < r.size(); ++k)
       keyed_[k] = {coordinate(order_[r.begin + k], widest), order_[r.begin + k]};
-    const auto middle = keyed_.begin() + r.size() / 2;
-    std::nth_element(keyed_.begin(), middle, keyed_.end());
+    std::nth_element(keyed_.begin(), keyed_.begin() + first, keyed_.end());
     for (std::uint32_t k = 0; k < r.size(); ++k) order_[r.begin + k] = keyed_[k].second;
-    return r.begin + r.size() / 2;
+    return r.begin + first;
   }
 
   bool fits_leaf(const Range& r) {
@@ -177,35 +178,20 @@ class Sorter {
     return EdgeTree::kLeaf | line;
   }
 
-  // The children of a node: its range in halves, and again the largest ones, until there are eight.
-  // Their edges come in the order of the ranges.
+  // The children of a node: its range cut in halves, and these again, but at whole multiples of
+  // what a full child holds, so that leaves and nodes are full. Where the planes of kFullLeaf edges
+  // are too many for a leaf, the children hold fewer. Their edges come in the order of the ranges.
   void fill(std::uint32_t node, std::uint32_t begin, std::uint32_t end) {
-    std::vector<Range> ranges{{begin, end}};
-    std::vector<bool> is_leaf{false};
-    while (ranges.size() < std::size_t(EdgeTree::kChildren)) {
-      std::size_t largest = ranges.size();
-      for (std::size_t k = 0; k < ranges.size(); ++k) {
-        if (is_leaf[k] || (ranges.size() > 1 && fits_leaf(ranges[k]))) {
-          is_leaf[k] = true;
-        } else if (largest == ranges.size() || ranges[k].size() > ranges[largest].size()) {
-          largest = k;
-        }
-      }
-      if (largest == ranges.size()) break;
-      if (ranges[largest].size() == 1) {
-        is_leaf[largest] = true;
-        continue;
-      }
-      const Range r = ranges[largest];
-      const std::uint32_t middle = split(r);
-      ranges[largest].end = middle;
-      ranges.insert(ranges.begin() + std::ptrdiff_t(largest) + 1, {middle, r.end});
-      is_leaf.insert(is_leaf.begin() + std::ptrdiff_t(largest) + 1, false);
-    }
+    std::uint32_t full = kFullLeaf;
+    while (std::uint64_t(full) * EdgeTree::kChildren < end - begin) full *= EdgeTree::kChildren;
+    if (end - begin <= kFullLeaf) full = std::max<std::uint32_t>(1, (end - begin + 1) / 2);
+    std::vector<Range> ranges;
+    cut({begin, end}, full, ranges);
     std::array<std::uint32_t, EdgeTree::kChildren> child{};
+    std::array<bool, EdgeTree::kChildren> is_leaf{};
     // Inner children first, one after the other; then what is below them, in the order of edges.
     for (std::size_t k = 0; k < ranges.size(); ++k) {
-      if (!is_leaf[k]) is_leaf[k] = fits_leaf(ranges[k]);
+      is_leaf[k] = ranges[k].size() == 1 || fits_leaf(ranges[k]);
       if (is_leaf[k]) continue;
       child[k] = static_cast<std::uint32_t>(tree_.nodes.size());
       tree_.nodes.emplace_back();
@@ -224,6 +210,15 @@ class Sorter {
     n.child = child;
     for (std::size_t k = ranges.size(); k < n.first_edge.size(); ++k)
       n.first_edge[k] = static_cast<std::uint32_t>(tree_.edges.size());
+  }
+
+  // Appends pieces of at most `full` edges, at most eight.
+  void cut(const Range& r, std::uint32_t full, std::vector<Range>& to) {
+    if (r.size() <= full) return to.push_back(r);
+    const std::uint32_t pieces = (r.size() + full - 1) / full;
+    const std::uint32_t middle = split(r, pieces / 2 * full);
+    cut({r.begin, middle}, full, to);
+    cut({middle, r.end}, full, to);
   }
 
   EdgeTree& tree_;
