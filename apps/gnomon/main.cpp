@@ -116,8 +116,8 @@ int main(int argc, char** argv) {
 #ifdef GNOMON_HAVE_GL
   gnomon::app::add_render(app);
   gnomon::app::add_methods(app);
-  gnomon::app::add_bench(app);
 #endif
+  gnomon::app::add_bench(app);
 #ifdef GNOMON_HAVE_TRACE
   gnomon::app::add_verify(app);
 #ifdef GNOMON_HAVE_GL
