@@ -181,7 +181,7 @@ std::size_t HitsOf(const EdgeTree& tree, const LeafView& leaf, Extraction& x, st
   const auto low = hn::Set(d, static_cast<std::uint32_t>(positive)),
              high = hn::Set(d, static_cast<std::uint32_t>(positive >> 32));
   const std::size_t edges = leaf.head.edges;
-  x.bytes += edges * 2;
+  x.bytes += padded_edges(leaf.head) * 2;
   std::size_t n = 0;
   for (std::size_t e = 0; e < edges; e += hn::Lanes(d)) {
     const auto one = SignBits(d, low, high, leaf.first_plane + e),
@@ -239,13 +239,12 @@ void Descend(const EdgeTree& tree, Extraction& x) {
 
 // Finds the edges first, then fetches their vertices: each on its way from memory long before it is
 // needed.
-void Leaves(const EdgeTree& tree, const std::vector<std::uint32_t>& leaves, bool prefetch,
-            Extraction& x) {
+void Leaves(const EdgeTree& tree, const std::vector<std::uint32_t>& leaves, Extraction& x) {
   constexpr std::size_t kLeavesAhead = 4;
   std::vector<std::uint32_t>& hits = x.scratch->hits;
   std::size_t n = 0;
   for (std::size_t k = 0; k < leaves.size(); ++k) {
-    if (prefetch && k + kLeavesAhead < leaves.size()) PrefetchLeaf(tree, leaves[k + kLeavesAhead]);
+    if (k + kLeavesAhead < leaves.size()) PrefetchLeaf(tree, leaves[k + kLeavesAhead]);
     if (hits.size() < n + 2 * EdgeTree::kMostEdges) hits.resize(2 * n + 4096);
     const std::size_t found = HitsOf(tree, view_leaf(tree, leaves[k]), x, hits.data() + n);
     for (std::size_t i = n; i < n + found; ++i)
@@ -263,7 +262,7 @@ void Leaves(const EdgeTree& tree, const std::vector<std::uint32_t>& leaves, bool
 void Extract(const EdgeTree& tree, bool linear, Extraction& x) {
   x.scratch->leaves.clear();
   if (!linear && !tree.nodes.empty()) Descend(tree, x);
-  Leaves(tree, linear ? tree.leaves : x.scratch->leaves, !linear, x);
+  Leaves(tree, linear ? tree.leaves : x.scratch->leaves, x);
   for (const std::uint32_t line : tree.irregular_leaves) {
     const LeafView leaf = view_leaf(tree, line);
     const std::uint64_t positive = PositiveOf(tree, leaf, x);
