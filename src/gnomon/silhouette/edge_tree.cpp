@@ -14,7 +14,7 @@ namespace gnomon {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr int kLevel = 32767;        // of 16 bits, from -kLevel to kLevel
+constexpr int kLevel = 32767;  // of 16 bits, from -kLevel to kLevel
 constexpr std::size_t kVector = EdgeTree::kVector;
 // Of a smooth mesh so many edges have just below kMostPlanes planes.
 constexpr std::uint32_t kFullLeaf = 60;
