@@ -95,7 +95,7 @@ TEST(CountShaded, ManyLightsAtOnceShadeWhatEachShadesAlone) {
     const Casters casters = prepare_casters(s);
     const Receivers receivers = visible_surfaces(s, view);
     std::vector<Light> lights;
-    for (int k = 0; k < 250; ++k)
+    for (int k = 0; k < 520; ++k)
       lights.push_back(Light(std::cos(0.1 * k), std::sin(0.1 * k), 0.02 + 0.01 * (k % 40), 0));
     std::vector<std::uint32_t> sums(receivers.triangle.size(), 0);
     for (const Light& light : lights) {

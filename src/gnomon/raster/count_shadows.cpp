@@ -25,8 +25,8 @@ static_assert(kBandRows <= kBandRowsMax);
 constexpr std::size_t kBatchBytes = std::size_t{96} << 20;
 constexpr std::size_t kBatchLights = 16;
 // A tree of edges is built for as many lights: one light costs brute force 8 ns a triangle and the
-// tree 1, and building it 650 (docs/silhouettes.md).
-constexpr std::size_t kLightsForTree = 192;
+// tree 1, and building it, by one thread, 700 to 3000 (docs/silhouettes.md).
+constexpr std::size_t kLightsForTree = 512;
 
 Corners corners_of(const Scene& scene, std::uint32_t triangle) {
   const Triangle& t = scene.mesh.triangles[triangle];
