@@ -5,6 +5,7 @@
 #include <gnomon/core/exact.h>
 #include <gnomon/silhouette/light_sides.h>
 #include <gnomon/volume/shadow_volume.h>
+#include <gnomon/volume/volume_lists.h>
 
 namespace gnomon {
 namespace {
@@ -94,6 +95,39 @@ TEST(ShadowVolume, DirectionalLightNeedsNoDarkCap) {
       build_volume(s.mesh, {}, sides, find_silhouette(build_edge_table(s.mesh), sides), light);
   EXPECT_TRUE(v.dark_cap.empty());
   for (const VolumePolygon& p : v.sides) EXPECT_EQ(p.size, 3);
+}
+
+// Chunks of a soup full of ties: each one's silhouette, and their sum, is that of brute force.
+TEST(SilhouetteOfFew, IsThatOfAPartOfTheseTriangles) {
+  TriMesh m;
+  test::add_soup(m, 150, 2, 1, 5);
+  test::add_box(m, {0, 0, 0}, {1, 1, 1});
+  const Scene s = test::scene_of(m);
+  const EdgeTable table = build_edge_table(s.mesh);
+  std::vector<std::uint32_t> all(table.vertices.size());
+  for (std::uint32_t k = 0; k < all.size(); ++k) all[k] = k;
+  for (const Light& light : {Light(1, 2, 3, 0), Light(0, 0, 1, 0), Light(0.5, 0.5, 4, 1)}) {
+    const auto sides = light_sides(s.mesh, light);
+    for (const Casting casting : {Casting::all_triangles, Casting::negative_sides}) {
+      for (std::uint32_t first = 0; first + 20 < s.mesh.triangles.size(); first += 20) {
+        std::vector<std::uint32_t> few;
+        std::vector<std::uint32_t> group(s.mesh.triangles.size(), 0);
+        for (std::uint32_t t = first; t < first + 20; ++t) {
+          few.push_back(t);
+          group[t] = 1;
+        }
+        Silhouette expected, ours;
+        find_part_silhouette(expected, table, all, group, 1, sides, casting);
+        find_silhouette_of_few(ours, s.mesh, few, sides, casting);
+        ASSERT_EQ(ours.size(), expected.size());
+        for (std::size_t k = 0; k < ours.size(); ++k) {
+          EXPECT_EQ(ours[k].a, expected[k].a);
+          EXPECT_EQ(ours[k].b, expected[k].b);
+          EXPECT_EQ(ours[k].multiplicity, expected[k].multiplicity);
+        }
+      }
+    }
+  }
 }
 
 }  // namespace

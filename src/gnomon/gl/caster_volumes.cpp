@@ -30,8 +30,6 @@ struct Builder {
   std::vector<std::uint8_t> beyond_receivers{};  // per vertex
   LoopScratch scratch{};
   Silhouette silhouette{};
-  std::vector<std::uint32_t> chunk_of{};  // per triangle; 0: of what is in no chunk
-  std::uint32_t chunks = 0;               // so far
 
   void note(bool polygon, std::uint32_t layers) {
     v.polygon.push_back(polygon ? 1 : 0);
@@ -50,13 +48,9 @@ struct Builder {
     return z_fail || v.all_caps ? triangles : std::span<const std::uint32_t>();
   }
 
-  void append_group(std::uint32_t p, std::span<const std::uint32_t> group_of, std::uint32_t group,
-                    std::span<const std::uint32_t> triangles, bool z_fail, std::uint32_t layers) {
-    const std::span<const std::uint32_t> edges(m.part_edges.edge.data() + m.part_edges.first[p],
-                                               m.part_edges.first[p + 1] - m.part_edges.first[p]);
-    silhouette.clear();
-    find_part_silhouette(silhouette, m.edges, edges, group_of, group, v.light_side,
-                         v.plan[p].casting);
+  // Precondition: `silhouette` is theirs.
+  void append_triangles(std::uint32_t p, std::span<const std::uint32_t> triangles, bool z_fail,
+                        std::uint32_t layers) {
     append_volume(v.lists, m.mesh, silhouette, caps_of(triangles, z_fail), v.light_side, one_point,
                   v.plan[p].casting, form, p, beyond_receivers, scratch, v.grazed_edges);
     note(false, layers);
@@ -79,7 +73,13 @@ struct Builder {
                                      ? 1
                                      : count_casting(part.triangles, plan.casting);
     if (v.most_layers == 0 || layers <= v.most_layers) {
-      append_group(p, m.parts.part_of, p, part.triangles, plan.z_fail, layers);
+      const EdgesOfParts& edges = m.part_edges;
+      silhouette.clear();
+      find_part_silhouette(
+          silhouette, m.edges,
+          std::span(edges.edge).subspan(edges.first[p], edges.first[p + 1] - edges.first[p]),
+          m.parts.part_of, p, v.light_side, plan.casting);
+      append_triangles(p, part.triangles, plan.z_fail, layers);
       return;
     }
     append_chunks(p, part.triangles, plan.z_fail);
@@ -87,17 +87,16 @@ struct Builder {
 
   // Casting triangles of a part in volumes of at most most_layers of them.
   void append_chunks(std::uint32_t p, std::span<const std::uint32_t> triangles, bool z_fail) {
-    chunk_of.resize(m.mesh.triangles.size(), 0);
     std::vector<std::uint32_t> chunk;
     const auto flush = [&] {
-      if (!chunk.empty())
-        append_group(p, chunk_of, chunks, chunk, z_fail, static_cast<std::uint32_t>(chunk.size()));
+      if (chunk.empty()) return;
+      silhouette.clear();
+      find_silhouette_of_few(silhouette, m.mesh, chunk, v.light_side, v.plan[p].casting);
+      append_triangles(p, chunk, z_fail, static_cast<std::uint32_t>(chunk.size()));
       chunk.clear();
     };
     for (const std::uint32_t t : triangles) {
       if (!casts(v.plan[p].casting, v.light_side[t])) continue;
-      if (chunk.empty()) ++chunks;
-      chunk_of[t] = chunks;
       chunk.push_back(t);
       if (chunk.size() == v.most_layers) flush();
     }

@@ -118,6 +118,30 @@ void find_part_silhouette(Silhouette& out, const EdgeTable& table,
   }
 }
 
+void find_silhouette_of_few(Silhouette& out, const TriMesh& mesh,
+                            std::span<const std::uint32_t> triangles,
+                            std::span<const std::int8_t> sides, Casting casting) {
+  Silhouette edges;  // each once for every triangle at it
+  edges.reserve(3 * triangles.size());
+  for (const std::uint32_t t : triangles) {
+    if (!casts(casting, sides[t])) continue;
+    const Triangle& v = mesh.triangles[t];
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t a = v[k], b = v[(k + 1) % 3];
+      edges.push_back({std::min(a, b), std::max(a, b), a < b ? sides[t] : -sides[t]});
+    }
+  }
+  std::sort(edges.begin(), edges.end(), [](const SilhouetteEdge& x, const SilhouetteEdge& y) {
+    return x.a != y.a ? x.a < y.a : x.b < y.b;
+  });
+  for (std::size_t k = 0; k < edges.size();) {
+    SilhouetteEdge sum{edges[k].a, edges[k].b, 0};
+    for (; k < edges.size() && edges[k].a == sum.a && edges[k].b == sum.b; ++k)
+      sum.multiplicity += edges[k].multiplicity;
+    if (sum.multiplicity != 0) out.push_back(sum);
+  }
+}
+
 void append_volume(VolumeLists& lists, const TriMesh& mesh,
                    std::span<const SilhouetteEdge> silhouette,
                    std::span<const std::uint32_t> triangles, std::span<const std::int8_t> sides,

@@ -106,6 +106,12 @@ void find_part_silhouette(Silhouette& out, const EdgeTable& table,
                           std::span<const std::uint32_t> group_of, std::uint32_t group,
                           std::span<const std::int8_t> sides, Casting casting);
 
+// The same of a few triangles (all of which count that cast), in time that follows them and not the
+// part.
+void find_silhouette_of_few(Silhouette& out, const TriMesh& mesh,
+                            std::span<const std::uint32_t> triangles,
+                            std::span<const std::int8_t> sides, Casting casting);
+
 // Appends the volume of one triangle: its prism, which is convex.
 void append_prism(VolumeLists& lists, const TriMesh& mesh, std::uint32_t triangle,
                   std::int8_t light_side, bool one_point, std::uint32_t caster,
