@@ -88,21 +88,6 @@ Result<Programs> compile_programs() {
     const char *name, *vertex, *fragment, *defines;
   };
   const Item items[] = {
-      {&p.volume[0], "volume", kVolumeVertex, kColourFragment, "#define FACES\n"},
-      {&p.volume[1], "volume, extruded", kVolumeVertex, kColourFragment,
-       "#define FACES\n#define SHADER\n"},
-      {&p.volume[2], "volume, blended", kVolumeVertex, kColourFragment,
-       "#define FACES\n#define BLEND\n"},
-      {&p.volume[3], "volume, blended", kVolumeVertex, kColourFragment,
-       "#define FACES\n#define BLEND\n"},
-      {&p.volume_cut[0], "volume, cut", kVolumeVertex, kColourFragment,
-       "#define FACES\n#define CUT\n"},
-      {&p.volume_cut[1], "volume, cut, extruded", kVolumeVertex, kColourFragment,
-       "#define FACES\n#define CUT\n#define SHADER\n"},
-      {&p.volume_cut[2], "volume, cut, blended", kVolumeVertex, kColourFragment,
-       "#define FACES\n#define CUT\n#define BLEND\n"},
-      {&p.volume_cut[3], "volume, cut, blended", kVolumeVertex, kColourFragment,
-       "#define FACES\n#define CUT\n#define BLEND\n"},
       {&p.volume_inside, "volume, clipped", kVolumeVertex, kColourFragment,
        "#define FACES\n#define SHADER\n#define INSIDE\n"},
       {&p.flat_inside, "flat, clipped", kFlatVertex, kColourFragment, "#define INSIDE\n"},
@@ -118,13 +103,25 @@ Result<Programs> compile_programs() {
     if (!made) return made.error();
     *item.to = std::move(made).value();
   }
-  const char* forms[] = {"", "#define SHADER\n", "#define BLEND\n", "#define BLEND\n"};
-  for (std::size_t k = 0; k < std::size(forms) && epoxy_is_desktop_gl(); ++k) {
-    Result<ProgramHandle> made =
-        compile("volume, clipped by the near plane", kVolumeVertex, kColourFragment,
-                std::string("#define FACES\n#define NEAR_CLIP\n") + forms[k]);
-    if (!made) return made.error();
-    p.volume_near_clip[k] = std::move(made).value();
+  const char* by_extrusion[] = {"", "#define SHADER\n", "#define BLEND\n", "#define BLEND\n"};
+  struct Variant {
+    ProgramHandle* to;
+    const char *name, *defines;
+  };
+  std::vector<Variant> variants{{p.volume, "volume", ""},
+                                {p.volume_cut, "volume, cut", "#define CUT\n"}};
+  if (epoxy_is_desktop_gl()) {
+    variants.push_back(
+        {p.volume_near_clip, "volume, clipped by the near plane", "#define NEAR_CLIP\n"});
+  }
+  for (const Variant& variant : variants) {
+    for (std::size_t k = 0; k < std::size(by_extrusion); ++k) {
+      Result<ProgramHandle> made =
+          compile(variant.name, kVolumeVertex, kColourFragment,
+                  std::string("#define FACES\n") + variant.defines + by_extrusion[k]);
+      if (!made) return made.error();
+      variant.to[k] = std::move(made).value();
+    }
   }
   return p;
 }
