@@ -62,16 +62,9 @@ void draw_silhouettes(const Frame& frame, const LightPlan& plan, const Pass& pas
   glUseProgram(program);
   set(program, "u_colour", colour);
   for (const InstanceVolumes& v : prepared.all) {
-    Silhouette edges;
-    for (std::uint32_t p = 0; p < v.plan->parts.size(); ++p) {
-      const EdgesOfParts& of = v.mesh->part_edges;
-      find_part_silhouette(edges, v.mesh->edges,
-                           std::span(of.edge).subspan(of.first[p], of.first[p + 1] - of.first[p]),
-                           v.mesh->parts.part_of, p, v.volumes->light_side,
-                           v.plan->parts[p].casting);
-    }
     std::vector<std::uint32_t> indices;
-    for (const SilhouetteEdge& e : edges) indices.insert(indices.end(), {2 * e.a, 2 * e.b});
+    for (const SilhouetteEdge& e : v.volumes->silhouettes.edges)
+      indices.insert(indices.end(), {2 * e.a, 2 * e.b});
     set(program, "u_clip", frame.clip_of(*v.instance));
     if (inside) set(program, "u_inside", glm::mat4(*inside * v.instance->to_scene));
     draw_indexed(GL_LINES, v.mesh->doubled, indices);

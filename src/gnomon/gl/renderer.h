@@ -69,7 +69,9 @@ struct FrameStats {
   int polygon_volumes = 0;    // of these, volumes of single polygons
   int scissored_volumes = 0;  // volumes drawn within a rectangle of their own
   int culled_volumes = 0;     // volumes that shade nothing in the picture and were not drawn
-  int rebuilt = 0;            // casters' volumes made anew; the others were kept
+  // The cache of volumes, by instance and light: what nothing has changed for is kept.
+  int rebuilt = 0, kept = 0;
+  double volumes_ms = 0;   // until silhouettes were found, volumes made and handed to OpenGL
   int moved_lights = 0;    // lamps that touched a caster: shadows are those of lamps beside them,
                            // 2^-13 of the largest coordinate away (docs/renderer-limits.md)
   int stencil_groups = 0;  // groups of casters counted apart so that no count overflows

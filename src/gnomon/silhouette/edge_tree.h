@@ -101,4 +101,10 @@ void find_silhouette_linear(Silhouette& out, const EdgeTree& tree, const TriMesh
                             const Light& light, ExtractionScratch& scratch,
                             ExtractionStats* stats = nullptr);
 
+// The triangles whose plane the light is no farther from than `distance`, and perhaps some more;
+// each once, ascending. Metres; of a directional light: |n.L|, n the plane's unit normal. Only
+// triangles with an edge in the tree. `out` is replaced.
+void find_near_planes(std::vector<std::uint32_t>& out, const EdgeTree& tree, const Light& light,
+                      double distance, ExtractionScratch& scratch);
+
 }  // namespace gnomon
