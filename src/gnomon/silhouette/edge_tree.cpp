@@ -16,8 +16,14 @@ namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr int kLevel = 32767;  // of 16 bits, from -kLevel to kLevel
 constexpr std::size_t kVector = EdgeTree::kVector;
-// Of a smooth mesh so many edges have just below kMostPlanes planes.
-constexpr std::uint32_t kFullLeaf = 60;
+// Edges of a full leaf. Of a smooth mesh 60 have just below kMostPlanes planes; where edges have
+// more (in towns nearly two each), leaves must hold fewer, or they would be cut in halves and leave
+// nodes with few children.
+constexpr std::uint32_t kFullestLeaf = 60, kLeastFullLeaf = 16, kLeafStep = 4;
+// Leaves looked at to decide how full they can be, of which so many are to hold that many; and what
+// half as many edges lose of planes that they shared.
+constexpr std::size_t kProbes = 256;
+constexpr double kFitting = 0.9, kShared = 0.93;
 // Boxes are widened by this share of their numbers: four products and their sum in float, and the
 // light's and the box's own rounding, are wrong by less (2^-24 each).
 constexpr float kWiden = 0x1p-19F;
@@ -66,6 +72,14 @@ std::uint32_t append_leaf(EdgeTree& tree, std::span<const std::uint32_t> planes,
   return static_cast<std::uint32_t>(line);
 }
 
+// The largest distance from the centre.
+double size_of(const TriMesh& mesh, const Vec3& centre) {
+  double squared = 0;
+  for (const Vec3& p : mesh.positions)
+    squared = std::max(squared, glm::dot(p - centre, p - centre));
+  return squared > 0 ? std::sqrt(squared) : 1.0;
+}
+
 // Sorts edges into leaves. Points of an edge: both dual points, w in units of the mesh's size.
 class Sorter {
  public:
@@ -97,8 +111,16 @@ class Sorter {
   void sort() {
     if (edges_.empty()) return;
     tree_.edges.reserve(edges_.size());
-    tree_.nodes.emplace_back();
-    fill(0, 0, static_cast<std::uint32_t>(order_.size()));
+    try_sort();
+    if (!decided_) decide();
+    if (again_) {
+      tree_.nodes.clear();
+      tree_.edges.clear();
+      tree_.lines.clear();
+      tree_.leaves.clear();
+      tree_.triangle.clear();
+      try_sort();
+    }
   }
 
  private:
@@ -111,11 +133,30 @@ class Sorter {
     std::uint32_t size() const { return end - begin; }
   };
 
-  static double size_of(const TriMesh& mesh, const Vec3& centre) {
-    double squared = 0;
-    for (const Vec3& p : mesh.positions)
-      squared = std::max(squared, glm::dot(p - centre, p - centre));
-    return squared > 0 ? std::sqrt(squared) : 1.0;
+  void try_sort() {
+    again_ = false;
+    tree_.nodes.emplace_back();
+    fill(0, 0, static_cast<std::uint32_t>(order_.size()));
+  }
+
+  // How full leaves are to be, after the first of them; whether to begin again.
+  void decide() {
+    decided_ = true;
+    if (probes_.empty()) return;
+    const auto at = probes_.begin() + static_cast<std::ptrdiff_t>(
+                                          (1 - kFitting) * static_cast<double>(probes_.size()));
+    std::nth_element(probes_.begin(), at, probes_.end());
+    const std::uint32_t full = std::clamp(static_cast<std::uint32_t>(*at) / kLeafStep * kLeafStep,
+                                          kLeastFullLeaf, kFullestLeaf);
+    again_ = full < full_;
+    full_ = full;
+  }
+
+  // Precondition: fits_leaf() saw the range last.
+  void probe(const Range& r) {
+    if (decided_ || r.size() <= full_ / 2) return;
+    probes_.push_back(kShared * double(EdgeTree::kMostPlanes) * r.size() / double(planes_.size()));
+    if (probes_.size() == kProbes) decide();
   }
 
   float coordinate(std::uint32_t edge, int axis) const {
@@ -179,12 +220,12 @@ class Sorter {
   }
 
   // The children of a node: its range cut in halves, and these again, but at whole multiples of
-  // what a full child holds, so that leaves and nodes are full. Where the planes of kFullLeaf edges
-  // are too many for a leaf, the children hold fewer. Their edges come in the order of the ranges.
+  // what a full child holds, so that leaves and nodes are full. Where the planes of full_ edges are
+  // too many for a leaf, the children hold fewer. Their edges come in the order of the ranges.
   void fill(std::uint32_t node, std::uint32_t begin, std::uint32_t end) {
-    std::uint32_t full = kFullLeaf;
+    std::uint32_t full = full_;
     while (std::uint64_t(full) * EdgeTree::kChildren < end - begin) full *= EdgeTree::kChildren;
-    if (end - begin <= kFullLeaf) full = std::max<std::uint32_t>(1, (end - begin + 1) / 2);
+    if (end - begin <= full_) full = std::max<std::uint32_t>(1, (end - begin + 1) / 2);
     std::vector<Range> ranges;
     cut({begin, end}, full, ranges);
     std::array<std::uint32_t, EdgeTree::kChildren> child{};
@@ -192,6 +233,8 @@ class Sorter {
     // Inner children first, one after the other; then what is below them, in the order of edges.
     for (std::size_t k = 0; k < ranges.size(); ++k) {
       is_leaf[k] = ranges[k].size() == 1 || fits_leaf(ranges[k]);
+      if (full == full_) probe(ranges[k]);
+      if (again_) return;
       if (is_leaf[k]) continue;
       child[k] = static_cast<std::uint32_t>(tree_.nodes.size());
       tree_.nodes.emplace_back();
@@ -203,6 +246,7 @@ class Sorter {
         child[k] = add_leaf(ranges[k]);
       } else {
         fill(child[k], ranges[k].begin, ranges[k].end);
+        if (again_) return;
       }
     }
     EdgeTree::Node& n = tree_.nodes[node];
@@ -227,6 +271,9 @@ class Sorter {
   std::vector<std::uint32_t> order_;
   std::vector<std::pair<float, std::uint32_t>> keyed_;
   std::vector<std::uint32_t> planes_;  // of the range that fits_leaf() saw last
+  std::uint32_t full_ = kFullestLeaf;
+  std::vector<double> probes_;  // edges that would have filled the leaves seen so far
+  bool decided_ = false, again_ = false;
 };
 
 // Triangles of irregular edges, in blocks of their own.

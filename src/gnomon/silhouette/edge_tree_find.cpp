@@ -200,7 +200,7 @@ std::size_t HitsOf(const EdgeTree& tree, const LeafView& leaf, Extraction& x, st
 }
 
 void PrefetchLeaf(const EdgeTree& tree, std::uint32_t line) {
-  for (std::size_t k = 0; k < 9; ++k) hwy::Prefetch(tree.lines.data() + line + k);
+  for (std::size_t k = 0; k < 11; ++k) hwy::Prefetch(tree.lines.data() + line + k);
 }
 
 // Leaves that may hold an edge of the silhouette; those of boxes on two sides of the light are
@@ -241,7 +241,7 @@ void Descend(const EdgeTree& tree, Extraction& x) {
 // Finds the edges first, then fetches their vertices: each on its way from memory long before it is
 // needed.
 void Leaves(const EdgeTree& tree, const std::vector<std::uint32_t>& leaves, Extraction& x) {
-  constexpr std::size_t kLeavesAhead = 4;
+  constexpr std::size_t kLeavesAhead = 6;
   std::vector<std::uint32_t>& hits = x.scratch->hits;
   std::size_t n = 0;
   for (std::size_t k = 0; k < leaves.size(); ++k) {
