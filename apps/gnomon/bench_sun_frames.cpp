@@ -15,17 +15,18 @@
 namespace gnomon::app {
 namespace {
 
-// A frame takes long: of the day's minutes so many runs of so many, each in the middle of an equal
-// share of the day. Within a run the sun moves as it does, by a minute.
-constexpr std::size_t kRuns = 4, kMinutes = 12;
+// A frame takes long: of the day's minutes so many runs, each in the middle of an equal share of
+// the day. Within a run the sun moves as it does, by a minute.
+constexpr std::size_t kRuns = 4;
 constexpr int kMostRounds = 5;
 
-std::vector<Light> some_of(const std::vector<Light>& suns) {
-  if (suns.size() <= kRuns * kMinutes) return suns;
+std::vector<Light> some_of(const std::vector<Light>& suns, std::size_t frames) {
+  const std::size_t minutes = std::max<std::size_t>(1, frames / kRuns);
+  if (suns.size() <= kRuns * minutes) return suns;
   std::vector<Light> out;
   for (std::size_t run = 0; run < kRuns; ++run) {
     const std::size_t middle = suns.size() * (2 * run + 1) / (2 * kRuns);
-    for (std::size_t k = 0; k < kMinutes; ++k) out.push_back(suns[middle - kMinutes / 2 + k]);
+    for (std::size_t k = 0; k < minutes; ++k) out.push_back(suns[middle - minutes / 2 + k]);
   }
   return out;
 }
@@ -77,8 +78,8 @@ void measure(std::vector<Way>& ways, const gl::Camera& camera, const std::vector
 }  // namespace
 
 std::string bench_sun_frames(std::span<const PaperScene> scenes, const gl::Method& method,
-                             const std::string& api, int rounds, ProgressBar& bar, double from,
-                             double to) {
+                             const std::string& api, int frames, int rounds, ProgressBar& bar,
+                             double from, double to) {
   gl::HeadlessContext context =
       take(gl::HeadlessContext::create(api == "gles" ? gl::Api::opengl_es : gl::Api::opengl));
   const gl::Capabilities capabilities = take(gl::find_capabilities());
@@ -96,7 +97,7 @@ std::string bench_sun_frames(std::span<const PaperScene> scenes, const gl::Metho
   std::string table;
   const double share = (to - from) / double(scenes.size());
   for (const PaperScene& s : scenes) {
-    const std::vector<Light> suns = some_of(suns_of(s.day));
+    const std::vector<Light> suns = some_of(suns_of(s.day), static_cast<std::size_t>(frames));
     const View view =
         make_camera(s.scene, s.view, light_azimuth(s.scene, suns[suns.size() / 2]), 1);
     const gl::Camera camera = gl::camera_of(view, gl::depth_range(s.scene, view, true));
@@ -130,14 +131,14 @@ std::string bench_sun_frames(std::span<const PaperScene> scenes, const gl::Metho
              "A frame is from the call of draw() to the end of glFinish(), of 640 x 480 pixels "
              "from "
              "the eye of docs/gallery.md's pictures: the sun has moved by a minute, so silhouettes "
-             "and volumes are made anew, and all is drawn; {} times {} minutes in a row, each in "
+             "and volumes are made anew, and all is drawn; {} runs of minutes in a row, each in "
              "the middle of an equal share of the paper's hours. \"Until volumes are with "
              "OpenGL\" is the part of it that ends when the volumes' indices have been handed "
              "over: silhouettes, part by part, the bound of layers, grazed triangles, lists. All "
              "ways draw sun 1, then all draw sun 2, {} times over; a sun's time is the median of "
              "its {}, a scene's the mean of its suns. Dual space is that of facets: vertices find "
              "no volumes. Faces counted {}, {} reach.\n\n",
-             gl::describe(capabilities), kRuns, kMinutes, rounds, rounds, gl::name_of(method.count),
+             gl::describe(capabilities), kRuns, rounds, rounds, gl::name_of(method.count),
              gl::name_of(method.reach)) +
          header("scene", columns) + table;
 }

@@ -12,9 +12,10 @@
 
 namespace gnomon::app {
 
-// A section in Markdown. `api`: gl or gles. `bar` goes from `from` to `to`. Throws Failure.
+// A section in Markdown. `api`: gl or gles; `frames`: suns of a scene, about. `bar` goes from
+// `from` to `to`. Throws Failure.
 std::string bench_sun_frames(std::span<const PaperScene> scenes, const gl::Method& method,
-                             const std::string& api, int rounds, ProgressBar& bar, double from,
-                             double to);
+                             const std::string& api, int frames, int rounds, ProgressBar& bar,
+                             double from, double to);
 
 }  // namespace gnomon::app

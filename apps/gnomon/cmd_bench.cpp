@@ -108,8 +108,8 @@ void run(const Options& o) {
     if (edges) text += bench_silhouettes(paper_scenes, o.rounds, bar, whole, middle);
 #ifdef GNOMON_HAVE_GL
     if (sun_frames) {
-      text +=
-          bench_sun_frames(paper_scenes, o.frames.method, o.frames.api, o.rounds, bar, middle, 1);
+      text += bench_sun_frames(paper_scenes, o.frames.method, o.frames.api, o.frames.frames,
+                               o.rounds, bar, middle, 1);
     }
 #endif
   }
