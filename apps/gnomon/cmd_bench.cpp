@@ -152,10 +152,10 @@ void add_bench(CLI::App& app) {
                                : "Times that each silhouette is measured")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-#ifdef GNOMON_HAVE_GL
   command->add_flag(
       "--alone", o.alone,
       "Of the second paper's scenes only the silhouettes alone, which need no OpenGL");
+#ifdef GNOMON_HAVE_GL
   add_frame_options(*command, o.frames);
 #endif
   command->add_option("-o,--output", o.output, "The Markdown file (default: standard output)");
