@@ -199,8 +199,19 @@ std::size_t HitsOf(const EdgeTree& tree, const LeafView& leaf, Extraction& x, st
   return n;
 }
 
+// Into the second-level cache: the first has no room for as many lines on their way as it takes to
+// wait for memory only once.
+void PrefetchFar(const void* p) {
+#if defined(__GNUC__)
+  __builtin_prefetch(p, 0, 2);
+#else
+  hwy::Prefetch(static_cast<const char*>(p));
+#endif
+}
+
 void PrefetchLeaf(const EdgeTree& tree, std::uint32_t line) {
-  for (std::size_t k = 0; k < 11; ++k) hwy::Prefetch(tree.lines.data() + line + k);
+  constexpr std::size_t kLines = 11;  // of the largest
+  for (std::size_t k = 0; k < kLines; ++k) PrefetchFar(tree.lines.data() + line + k);
 }
 
 // Leaves that may hold an edge of the silhouette; those of boxes on two sides of the light are
@@ -232,7 +243,7 @@ void Descend(const EdgeTree& tree, Extraction& x) {
       } else {
         nodes.push_back(child);
         const auto* from = reinterpret_cast<const std::uint8_t*>(&tree.nodes[child]);
-        for (std::size_t i = 0; i < sizeof(EdgeTree::Node); i += 64) hwy::Prefetch(from + i);
+        for (std::size_t i = 0; i < sizeof(EdgeTree::Node); i += 64) PrefetchFar(from + i);
       }
     }
   }
@@ -241,7 +252,7 @@ void Descend(const EdgeTree& tree, Extraction& x) {
 // Finds the edges first, then fetches their vertices: each on its way from memory long before it is
 // needed.
 void Leaves(const EdgeTree& tree, const std::vector<std::uint32_t>& leaves, Extraction& x) {
-  constexpr std::size_t kLeavesAhead = 6;
+  constexpr std::size_t kLeavesAhead = 16;
   std::vector<std::uint32_t>& hits = x.scratch->hits;
   std::size_t n = 0;
   for (std::size_t k = 0; k < leaves.size(); ++k) {
@@ -249,7 +260,7 @@ void Leaves(const EdgeTree& tree, const std::vector<std::uint32_t>& leaves, Extr
     if (hits.size() < n + 2 * EdgeTree::kMostEdges) hits.resize(2 * n + 4096);
     const std::size_t found = HitsOf(tree, view_leaf(tree, leaves[k]), x, hits.data() + n);
     for (std::size_t i = n; i < n + found; ++i)
-      hwy::Prefetch(tree.edges.data() + (hits[i] & ~kFirstPositive));
+      PrefetchFar(tree.edges.data() + (hits[i] & ~kFirstPositive));
     n += found;
   }
   Silhouette& out = *x.out;
