@@ -28,8 +28,9 @@ constexpr double kFitting = 0.9, kShared = 0.93;
 // light's and the box's own rounding, are wrong by less (2^-24 each).
 constexpr float kWiden = 0x1p-19F;
 
+// A dual point to sort by, in steps: exactness is of no matter there.
 struct Dual {
-  float q[4];
+  std::array<std::int16_t, 4> q{};
 };
 
 std::uint32_t plane_key(std::uint32_t triangle, bool negated) {
@@ -85,11 +86,17 @@ class Sorter {
  public:
   Sorter(EdgeTree& tree, const TriMesh& mesh, const EdgeTable& table) : tree_(tree) {
     const double scale = size_of(mesh, tree.centre);
-    duals_.resize(mesh.triangles.size());
-    for (std::uint32_t t = 0; t < duals_.size(); ++t) {
-      const CertifiedPlane p = certified_plane(mesh, t, tree.centre);
-      for (int k = 0; k < 3; ++k) duals_[t].q[k] = static_cast<float>(p.q[std::size_t(k)]);
-      duals_[t].q[3] = static_cast<float>(p.q[3] / scale);
+    std::vector<Dual> duals(mesh.triangles.size());
+    for (std::size_t t = 0; t < duals.size(); ++t) {
+      const Triangle& v = mesh.triangles[t];
+      const Vec3& corner = mesh.positions[v[0]];
+      const Vec3 n = glm::cross(mesh.positions[v[1]] - corner, mesh.positions[v[2]] - corner);
+      const double length = glm::length(n);
+      if (!(length > 0) || !std::isfinite(length)) continue;
+      const Vec3 unit = n / length;
+      const double q[4] = {-unit.x, -unit.y, -unit.z, glm::dot(unit, corner - tree.centre) / scale};
+      for (std::size_t k = 0; k < 4; ++k)
+        duals[t].q[k] = static_cast<std::int16_t>(std::clamp(q[k], -1.0, 1.0) * kLevel);
     }
     for (std::uint32_t e = 0; e < table.vertices.size(); ++e) {
       const std::uint32_t first = table.first[e];
@@ -104,8 +111,17 @@ class Sorter {
            plane_key((swap ? one : two) >> 1, same_way),
            {table.vertices[e][0], table.vertices[e][1] | (backward ? EdgeTree::kBackward : 0)}});
     }
-    order_.resize(edges_.size());
-    for (std::uint32_t e = 0; e < order_.size(); ++e) order_[e] = e;
+    points_.resize(edges_.size());
+    for (std::uint32_t e = 0; e < points_.size(); ++e) {
+      points_[e].edge = e;
+      for (std::size_t side = 0; side < 2; ++side) {
+        const std::uint32_t key = side == 0 ? edges_[e].first : edges_[e].second;
+        for (std::size_t k = 0; k < 4; ++k) {
+          const std::int16_t q = duals[key >> 1].q[k];
+          points_[e].q[4 * side + k] = (key & 1) != 0 ? static_cast<std::int16_t>(-q) : q;
+        }
+      }
+    }
   }
 
   void sort() {
@@ -128,6 +144,10 @@ class Sorter {
     std::uint32_t first, second;  // plane keys
     EdgeTree::Edge edge;
   };
+  struct Point {
+    std::array<std::int16_t, 8> q;  // both dual points
+    std::uint32_t edge;
+  };
   struct Range {
     std::uint32_t begin, end;
     std::uint32_t size() const { return end - begin; }
@@ -136,7 +156,7 @@ class Sorter {
   void try_sort() {
     again_ = false;
     tree_.nodes.emplace_back();
-    fill(0, 0, static_cast<std::uint32_t>(order_.size()));
+    fill(0, 0, static_cast<std::uint32_t>(points_.size()));
   }
 
   // How full leaves are to be, after the first of them; whether to begin again.
@@ -159,33 +179,26 @@ class Sorter {
     if (probes_.size() == kProbes) decide();
   }
 
-  float coordinate(std::uint32_t edge, int axis) const {
-    const std::uint32_t key = axis < 4 ? edges_[edge].first : edges_[edge].second;
-    const float q = duals_[key >> 1].q[axis & 3];
-    return (key & 1) != 0 ? -q : q;
-  }
-
   // Cuts a range by the axis over which its points are spread widest, `first` of them to one side.
   std::uint32_t split(const Range& r, std::uint32_t first) {
-    float lo[8], hi[8];
-    std::fill(lo, lo + 8, kInfinity);
-    std::fill(hi, hi + 8, -kInfinity);
-    for (std::uint32_t k = r.begin; k < r.end; ++k) {
-      for (int axis = 0; axis < 8; ++axis) {
-        const float x = coordinate(order_[k], axis);
-        lo[axis] = std::min(lo[axis], x);
-        hi[axis] = std::max(hi[axis], x);
+    std::array<std::int16_t, 8> lo, hi;
+    lo.fill(kLevel);
+    hi.fill(-kLevel);
+    const auto begin = points_.begin() + r.begin, end = points_.begin() + r.end;
+    for (auto p = begin; p != end; ++p) {
+      for (std::size_t axis = 0; axis < 8; ++axis) {
+        lo[axis] = std::min(lo[axis], p->q[axis]);
+        hi[axis] = std::max(hi[axis], p->q[axis]);
       }
     }
-    int widest = 0;
-    for (int axis = 1; axis < 8; ++axis) {
+    std::size_t widest = 0;
+    for (std::size_t axis = 1; axis < 8; ++axis) {
       if (hi[axis] - lo[axis] > hi[widest] - lo[widest]) widest = axis;
     }
-    keyed_.resize(r.size());
-    for (std::uint32_t k = 0; k < r.size(); ++k)
-      keyed_[k] = {coordinate(order_[r.begin + k], widest), order_[r.begin + k]};
-    std::nth_element(keyed_.begin(), keyed_.begin() + first, keyed_.end());
-    for (std::uint32_t k = 0; k < r.size(); ++k) order_[r.begin + k] = keyed_[k].second;
+    // Of equal ones the first edges of the table.
+    std::nth_element(begin, begin + first, end, [widest](const Point& a, const Point& b) {
+      return a.q[widest] != b.q[widest] ? a.q[widest] < b.q[widest] : a.edge < b.edge;
+    });
     return r.begin + first;
   }
 
@@ -193,8 +206,8 @@ class Sorter {
     if (r.size() > EdgeTree::kMostEdges) return false;
     planes_.clear();
     for (std::uint32_t k = r.begin; k < r.end; ++k) {
-      planes_.push_back(edges_[order_[k]].first);
-      planes_.push_back(edges_[order_[k]].second);
+      planes_.push_back(edges_[points_[k].edge].first);
+      planes_.push_back(edges_[points_[k].edge].second);
     }
     std::sort(planes_.begin(), planes_.end());
     planes_.erase(std::unique(planes_.begin(), planes_.end()), planes_.end());
@@ -211,7 +224,7 @@ class Sorter {
                                        planes_.begin());
     };
     for (std::uint32_t k = 0; k < r.size(); ++k) {
-      const Item& item = edges_[order_[r.begin + k]];
+      const Item& item = edges_[points_[r.begin + k].edge];
       tree_.edges.push_back(item.edge);
       first[k] = index(item.first);
       first[whole_vectors(r.size()) + k] = index(item.second);
@@ -266,10 +279,8 @@ class Sorter {
   }
 
   EdgeTree& tree_;
-  std::vector<Dual> duals_;
   std::vector<Item> edges_;
-  std::vector<std::uint32_t> order_;
-  std::vector<std::pair<float, std::uint32_t>> keyed_;
+  std::vector<Point> points_;          // in the tree's order, when sorted
   std::vector<std::uint32_t> planes_;  // of the range that fits_leaf() saw last
   std::uint32_t full_ = kFullestLeaf;
   std::vector<double> probes_;  // edges that would have filled the leaves seen so far
