@@ -136,6 +136,12 @@ TEST(MovingLights, StatsSayWhichVolumesWereKept) {
   s = draw();
   EXPECT_EQ(s.rebuilt, 2);
   EXPECT_GT(s.volumes_ms, 0);
+  EXPECT_EQ(s.kept, 0);
+  FrameOptions look;  // at what was made: it is counted once
+  look.overlay.silhouettes = true;
+  s = stage.renderer.draw(camera, {&sun, 1}, look).value();
+  EXPECT_EQ(s.rebuilt, 0);
+  EXPECT_EQ(s.kept, 2);
 }
 
 }  // namespace
