@@ -91,9 +91,9 @@ int main() {
   std::printf("deformed: %zu edges\n", silhouette.size());
   if (!right(silhouette, mesh, edges, in_mesh)) return 1;
 
-  // The volume, part by part (here there is one). Of a closed part that the lamp is outside of, one
-  // light side of its triangles is enough. Caps need the light sides of all triangles; sides alone
-  // (z-pass) do not: pass {} for the triangles and for their light sides.
+  // The volume, part by part (here there is one). Of a closed part that has neither lamp nor eye
+  // inside, one light side of its triangles is enough. Caps need the light sides of all triangles;
+  // sides alone (z-pass) do not: pass {} for the triangles and for their light sides.
   const gnomon::Parts parts = gnomon::split_into_parts(mesh, edges);
   const gnomon::PartsOfEdges of_edges = gnomon::parts_of_edges(edges, parts, mesh.positions.size());
   std::vector<gnomon::CastingSides> casting;
