@@ -16,6 +16,8 @@
 #include "progress.h"
 #include "second_paper.h"
 #ifdef GNOMON_HAVE_GL
+#include <gnomon/gl/context.h>
+
 #include "bench_frames.h"
 #include "bench_sun_frames.h"
 #endif
@@ -86,6 +88,22 @@ void run(const Options& o) {
     }
   }
   const bool frames = !frame_scenes.empty(), edges = !silhouette_scenes.empty() || !models.empty();
+#ifdef GNOMON_HAVE_GL
+  if (!frames && o.frames.method.silhouettes != SilhouetteBy::automatic) {
+    throw Failure(
+        "--silhouettes: the second paper's scenes are measured by every way there is; leave it "
+        "out, or add --scene convex, concave or figures, whose silhouettes it chooses");
+  }
+  if (edges && !o.alone) {
+    const auto context =
+        gl::HeadlessContext::create(o.frames.api == "gles" ? gl::Api::opengl_es : gl::Api::opengl);
+    if (!context) {
+      throw Failure(context.error().message +
+                    " With --alone, the second paper's scenes are measured without OpenGL.");
+    }
+  }
+#endif
+  if (!o.output.empty()) take(AtomicFile::create(o.output));  // can it be written?
   // Read before anything is measured: errors come at once.
   const std::vector<PaperScene> paper_scenes =
       second_paper_scenes(silhouette_scenes, models, o.common.quiet);

@@ -67,6 +67,43 @@ TEST(MovingLights, MasksAreThoseOfARendererThatKnowsNoOtherLight) {
   }
 }
 
+// A corner of a box is moved onto its neighbour: two triangles have no area from then on, and the
+// silhouette runs over the edges of one.
+TEST(MovingVertices, TrianglesThatLoseTheirAreaTearNoVolumeOpen) {
+  TriMesh m;
+  test::add_quad(m, {-20, -20, 0}, {20, -20, 0}, {20, 20, 0}, {-20, 20, 0});
+  test::add_box(m, {-3, -3, 1}, {3, 3, 7});
+  const Scene before = test::scene_of(m);
+  TriMesh moved = before.mesh;
+  std::size_t corner = 0, neighbour = 0;
+  for (std::size_t v = 0; v < moved.positions.size(); ++v) {
+    if (moved.positions[v] == Vec3(3, 3, 7)) corner = v;
+    if (moved.positions[v] == Vec3(3, 3, 1)) neighbour = v;
+  }
+  moved.positions[corner] = moved.positions[neighbour];
+  const Scene after = test::scene_of(moved);  // welded
+  ASSERT_EQ(after.mesh.triangles.size(), moved.triangles.size() - 2);
+  Stage stage = stage_of(Scene{});
+  const MeshId id = stage.renderer.add_mesh(before.mesh);
+  stage.renderer.add_instance(id);
+  stage.renderer.update_mesh(id, moved.positions);
+  const View view = aerial(160, 120);
+  const Camera camera = camera_of(view, depth_range(before, view, true));
+  for (const SilhouetteBy by :
+       {SilhouetteBy::brute_force, SilhouetteBy::dual_space, SilhouetteBy::edge_tree}) {
+    for (const double x : {-0.7, -0.3, 0.4}) {
+      for (const double y : {-0.6, 0.1, 0.5}) {
+        const Light light = direction({x, y, 1});
+        Method method;
+        method.silhouettes = by;
+        const ShadowMask mask = stage.renderer.mask(camera, light, method).value();
+        EXPECT_EQ(compare(mask, exact_mask(after, light, view)).far_off, 0)
+            << name_of(by) << ", sun " << x << ", " << y;
+      }
+    }
+  }
+}
+
 TEST(MovingLights, StatsSayWhichVolumesWereKept) {
   const Scene scene = crowd();
   const View view = aerial(64, 48);
@@ -99,6 +136,12 @@ TEST(MovingLights, StatsSayWhichVolumesWereKept) {
   s = draw();
   EXPECT_EQ(s.rebuilt, 2);
   EXPECT_GT(s.volumes_ms, 0);
+  EXPECT_EQ(s.kept, 0);
+  FrameOptions look;  // at what was made: it is counted once
+  look.overlay.silhouettes = true;
+  s = stage.renderer.draw(camera, {&sun, 1}, look).value();
+  EXPECT_EQ(s.rebuilt, 0);
+  EXPECT_EQ(s.kept, 2);
 }
 
 }  // namespace

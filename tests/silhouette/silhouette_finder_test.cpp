@@ -1,7 +1,9 @@
 // One interface over all methods: the same edges, whatever was asked before.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <random>
 
 #include "soup.h"
@@ -55,6 +57,32 @@ TEST(SilhouetteFinder, EveryMethodFindsTheSameEdgesThoughVerticesMove) {
     }
     for (Vec3& p : m.positions) p += Vec3(u(random), u(random), u(random));
     for (SilhouetteFinder& finder : finders) vertices_moved(finder);
+  }
+}
+
+TEST(SilhouetteFinder, EveryMethodFindsTheSameEdgesWhereATriangleHasLostItsArea) {
+  TriMesh m;
+  test::add_box(m, {0, 0, 0}, {1, 1, 1});
+  m = test::scene_of(m).mesh;
+  const EdgeTable edges = build_edge_table(m);
+  SilhouetteFinder finders[4];
+  Silhouette found;
+  std::vector<std::int8_t> sides;
+  for (int f = 0; f < 4; ++f)
+    find_silhouette(found, sides, finders[f], kAll[f], m, edges, Light(0.1, 0.2, 0.9, 0));
+  m.positions[m.triangles[0][1]] = m.positions[m.triangles[0][0]];
+  for (SilhouetteFinder& finder : finders) vertices_moved(finder);
+  std::mt19937 random(4);
+  for (int k = 0; k < 100; ++k) {
+    const Light light = a_light(random);
+    const std::vector<std::int8_t> of_triangles = light_sides(m, light);
+    EXPECT_EQ(std::count(of_triangles.begin(), of_triangles.end(), 0), 0);
+    const Silhouette expected = find_silhouette(edges, of_triangles);
+    for (const SilhouetteEdge& e : expected) EXPECT_EQ(std::abs(e.multiplicity), 2);
+    for (int f = 0; f < 4; ++f) {
+      find_silhouette(found, sides, finders[f], kAll[f], m, edges, light);
+      EXPECT_TRUE(same(expected, found)) << f;
+    }
   }
 }
 

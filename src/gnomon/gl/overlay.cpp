@@ -25,9 +25,17 @@ Pass line_pass(GLenum depth_func) {
   return p;
 }
 
+// The picture's mask has made these volumes and counted them, unless there was none.
+Prepared prepare_to_look(const Frame& frame, const LightPlan& plan) {
+  const FrameStats before = *frame.stats;
+  Prepared out = prepare(frame, plan);
+  if (before.rebuilt + before.kept > 0) frame.stats->kept = before.kept;
+  return out;
+}
+
 void draw_volume_faces(const Frame& frame, const LightPlan& plan, const Pass& pass,
                        const glm::vec4& colour) {
-  Prepared prepared = prepare(frame, plan);
+  Prepared prepared = prepare_to_look(frame, plan);
   for (InstanceVolumes& v : prepared.all) v.rectangles.clear();  // they are looked at as a whole
   apply(pass, frame);
   for (const std::vector<Batch>& batches : batches_of(frame, prepared)) {
@@ -54,7 +62,7 @@ void draw_volume_faces(const Frame& frame, const LightPlan& plan, const Pass& pa
 
 void draw_silhouettes(const Frame& frame, const LightPlan& plan, const Pass& pass,
                       const glm::vec4& colour) {
-  const Prepared prepared = prepare(frame, plan);
+  const Prepared prepared = prepare_to_look(frame, plan);
   apply(pass, frame);
   const std::optional<glm::dmat4>& inside = frame.camera->keep_inside;
   const GLuint program =

@@ -97,8 +97,8 @@ class Renderer {
   // `look`: materials, pictures, normals; none: white.
   MeshId add_mesh(const TriMesh& mesh, std::vector<std::uint8_t> casts = {},
                   std::vector<std::uint8_t> receives = {}, const Appearance* look = nullptr);
-  // New positions for the same triangles (a skinned or morphed mesh). Precondition: as many as
-  // before; equal ones stay equal.
+  // New positions for the same triangles (a skinned or morphed mesh), some of which may lose their
+  // area. Precondition: as many as before; equal ones stay equal.
   void update_mesh(MeshId mesh, std::span<const Vec3> positions);
   // The same from a buffer of the caller's: float x, y, z at `offset` + i * `stride` bytes. They
   // are read back, since silhouettes are found on the CPU. Errors: the buffer is shorter than that,

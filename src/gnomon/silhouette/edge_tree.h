@@ -73,7 +73,8 @@ static_assert(sizeof(EdgeTree::Leaf) == 64 - 4);
 EdgeTree build_edge_tree(const TriMesh& mesh, const EdgeTable& edges);
 
 // After vertices have moved: the same triangles, the same tree, new planes. It stays right however
-// they moved, and fast as long as neighbours stay neighbours.
+// they moved, triangles without area included, and fast as long as neighbours stay neighbours.
+// Linear in the mesh: takes as long as about a dozen silhouettes by brute force.
 void refresh_planes(EdgeTree& tree, const TriMesh& mesh);
 
 // What one extraction did.

@@ -17,7 +17,7 @@ namespace gnomon {
 // automatic: brute force, and from the kLightsBeforeTree-th light on the tree of edges.
 enum class SilhouetteBy : std::uint8_t { automatic, brute_force, dual_space, edge_tree };
 
-// Building the tree costs as much as 85 to 400 extractions by brute force (docs/silhouettes.md);
+// Building the tree costs as much as 60 to 230 extractions by brute force (docs/silhouettes.md);
 // who asks so often will probably ask again.
 inline constexpr std::uint32_t kLightsBeforeTree = 64;
 

@@ -24,8 +24,8 @@ inline constexpr std::uint32_t kManyParts = kNoPart - 1;
 PartsOfEdges parts_of_edges(const EdgeTable& edges, const Parts& parts, std::size_t vertices);
 
 // Which triangles of a part cast, each of which counts 1: none, those of one light side, or all.
-// One side only of closed parts which the light is outside of: a ray to it crosses as many
-// triangles of one side as of the other.
+// One side only of closed parts which the light is outside of (of their boxes is enough; a sun
+// always is): a ray to it crosses as many triangles of one side as of the other.
 enum class CastingSides : std::uint8_t { none, one, both };
 
 // CSR over the parts.

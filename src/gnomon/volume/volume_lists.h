@@ -79,8 +79,10 @@ inline constexpr std::uint32_t kRestart = 0xffffffffu;
 // over them lie in that plane, and go to lists of their own.
 using GrazedEdges = std::vector<std::array<std::uint32_t, 2>>;
 
-// Appends the volume of triangles whose silhouette is known already (a lit region), or which is to
-// be sent in one piece. Sides are not turned then: loops run the way that they count.
+// Appends the volume of triangles whose silhouette is known already (a part, a lit region).
+// `triangles` are those whose caps are made (of them, those that `casting` lets cast), `sides` the
+// mesh's light_sides(); both may be empty: sides alone, which is all that z-pass needs.
+// Strips and fans have no turned sides: loops run the way that they count.
 // `beyond`: per vertex of the mesh, 1 where it and all far ends lie beyond everything that
 // receives, as seen from the eye; triangles of sides that have no other corner go to the dark cap
 // (form triangles): z-fail counts them behind everything, z-pass never. Empty: none.
