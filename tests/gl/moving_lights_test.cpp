@@ -67,6 +67,46 @@ TEST(MovingLights, MasksAreThoseOfARendererThatKnowsNoOtherLight) {
   }
 }
 
+// A tetrahedron with a vertex on an edge, which a triangle without area joins to it: closed, so
+// that half of its triangles cast.
+TEST(MovingLights, MeshesWithATriangleThatLostItsAreaCastWholeShadows) {
+  const std::vector<Vec3> now = {{-4, -4, 2}, {4, -4, 2}, {0, 4, 2}, {0, 0, 8}, {0, -4, 2}};
+  TriMesh split;
+  split.positions = now;
+  split.positions[4].y = -5;
+  split.triangles = {{0, 2, 4}, {4, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}, {0, 4, 1}};
+  TriMesh plain, ground;
+  plain.positions = {now[0], now[1], now[2], now[3]};
+  plain.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  test::add_ground(ground, 20);
+  const View view = aerial(160, 120);
+  const Camera camera = camera_of(view, depth_range(test::scene_of(ground), view, true));
+  Stage expected = stage_of(test::scene_of(ground)), stage = stage_of(test::scene_of(ground));
+  expected.context.make_current();
+  expected.renderer.add_instance(expected.renderer.add_mesh(plain));
+  stage.context.make_current();
+  const MeshId mesh = stage.renderer.add_mesh(split);
+  stage.renderer.add_instance(mesh);
+  stage.renderer.update_mesh(mesh, now);
+  for (const Light& light : {Light(0.3, -0.9, 0.6, 0), Light(-0.2, 0.8, 0.7, 0),
+                             Light(0.1, 0.2, 0.9, 0), point({2, -9, 14})}) {
+    for (const Count count : {Count::z_pass, Count::z_fail, Count::mixed}) {
+      Method m;
+      m.count = count;
+      expected.context.make_current();
+      const ShadowMask exact = expected.renderer.mask(camera, light, m).value();
+      stage.context.make_current();
+      for (const SilhouetteBy by :
+           {SilhouetteBy::brute_force, SilhouetteBy::dual_space, SilhouetteBy::edge_tree}) {
+        m.silhouettes = by;
+        const Difference d = compare(stage.renderer.mask(camera, light, m).value(), exact);
+        EXPECT_EQ(d.far_off, 0) << name_of(by) << ", " << name_of(count);
+        EXPECT_LE(d.pixels, 2) << name_of(by) << ", " << name_of(count);
+      }
+    }
+  }
+}
+
 TEST(MovingLights, StatsSayWhichVolumesWereKept) {
   const Scene scene = crowd();
   const View view = aerial(64, 48);
