@@ -4,6 +4,8 @@
 
 #include "gl_test.h"
 
+#include <gnomon/gl/caster_volumes.h>
+
 namespace gnomon::gl {
 namespace {
 
@@ -103,6 +105,36 @@ TEST(MovingLights, MeshesWithATriangleThatLostItsAreaCastWholeShadows) {
         EXPECT_EQ(d.far_off, 0) << name_of(by) << ", " << name_of(count);
         EXPECT_LE(d.pixels, 2) << name_of(by) << ", " << name_of(count);
       }
+    }
+  }
+}
+
+TEST(MovingLights, TheTreeFindsTheGrazedEdgesOfTheLoopThoughTrianglesNeitherCastNorReceive) {
+  TriMesh m;
+  test::add_box(m, {0, 0, 0}, {2, 1, 1});
+  test::add_quad(m, {0, 0, 1}, {2, 0, 1}, {2, 0, 3}, {0, 0, 3});  // casts only
+  test::add_quad(m, {0, 1, 1}, {2, 1, 1}, {2, 1, 3}, {0, 1, 3});  // receives only
+  test::add_quad(m, {0, 0, 1}, {0, 1, 1}, {0, 1, 3}, {0, 0, 3});  // neither
+  m = test::scene_of(m).mesh;
+  std::vector<std::uint8_t> casts(m.triangles.size(), 1), receives(m.triangles.size(), 1);
+  receives[12] = receives[13] = casts[14] = casts[15] = 0;
+  receives[16] = receives[17] = casts[16] = casts[17] = 0;
+  Stage stage = stage_of(test::scene_of(m));
+  stage.context.make_current();
+  GpuMesh mesh = make_gpu_mesh(m, casts, receives);
+  const std::vector<PartPlan> plan(mesh.parts.parts.size());
+  for (const Light& light : {Light(0, 1, 1, 0), Light(1, 0, 2, 0), Light(0, 0, 1, 0),
+                             Light(0.001, 2, 3, 0), Light(0, 0, 9, 1)}) {
+    CasterVolumes loop, tree;
+    mesh.silhouettes = {};
+    update_silhouettes(loop, mesh, 1, light, plan, SilhouetteBy::brute_force);
+    update_silhouettes(tree, mesh, 1, light, plan, SilhouetteBy::edge_tree);
+    EXPECT_EQ(loop.grazed, tree.grazed);
+    EXPECT_EQ(loop.grazed_edges, tree.grazed_edges);
+    ASSERT_EQ(loop.nearly_grazed.size(), tree.nearly_grazed.size());
+    for (std::size_t k = 0; k < loop.nearly_grazed.size(); ++k) {
+      EXPECT_EQ(loop.nearly_grazed[k].triangle, tree.nearly_grazed[k].triangle);
+      EXPECT_EQ(loop.nearly_grazed[k].light_side, tree.nearly_grazed[k].light_side);
     }
   }
 }
