@@ -101,6 +101,14 @@ TEST(LightSide, IsNeverZeroForATriangleWithArea) {
   EXPECT_EQ(stats.ties, 3u);
 }
 
+TEST(LightSide, OfATriangleWithoutAreaIsTheSameForEveryLight) {
+  ExactStats stats;
+  for (const Vec3& c : {Vec3(3, 3, 3), Vec3(1, 1, 1), Vec3(0, 0, 0)}) {
+    for (const Light& l : {Light(1, 2, 0, 0), Light(5, 7, 3, 1), Light(0, 0, -1, 0)})
+      EXPECT_EQ(light_side({0, 0, 0}, {1, 1, 1}, c, l, stats), -1);
+  }
+}
+
 TEST(LightSide, TiesAreBrokenTheSameWayForEveryVertexOrder) {
   ExactStats stats;
   const Vec3 a(0, 0, 3), b(1, 0, 3), c(0, 1, 3);

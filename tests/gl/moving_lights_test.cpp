@@ -4,6 +4,8 @@
 
 #include "gl_test.h"
 
+#include <gnomon/gl/caster_volumes.h>
+
 namespace gnomon::gl {
 namespace {
 
@@ -100,6 +102,76 @@ TEST(MovingVertices, TrianglesThatLoseTheirAreaTearNoVolumeOpen) {
         EXPECT_EQ(compare(mask, exact_mask(after, light, view)).far_off, 0)
             << name_of(by) << ", sun " << x << ", " << y;
       }
+    }
+  }
+}
+
+// A tetrahedron with a vertex on an edge, which a triangle without area joins to it: closed, so
+// that half of its triangles cast.
+TEST(MovingLights, MeshesWithATriangleThatLostItsAreaCastWholeShadows) {
+  const std::vector<Vec3> now = {{-4, -4, 2}, {4, -4, 2}, {0, 4, 2}, {0, 0, 8}, {0, -4, 2}};
+  TriMesh split;
+  split.positions = now;
+  split.positions[4].y = -5;
+  split.triangles = {{0, 2, 4}, {4, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}, {0, 4, 1}};
+  TriMesh plain, ground;
+  plain.positions = {now[0], now[1], now[2], now[3]};
+  plain.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  test::add_ground(ground, 20);
+  const View view = aerial(160, 120);
+  const Camera camera = camera_of(view, depth_range(test::scene_of(ground), view, true));
+  Stage expected = stage_of(test::scene_of(ground)), stage = stage_of(test::scene_of(ground));
+  expected.context.make_current();
+  expected.renderer.add_instance(expected.renderer.add_mesh(plain));
+  stage.context.make_current();
+  const MeshId mesh = stage.renderer.add_mesh(split);
+  stage.renderer.add_instance(mesh);
+  stage.renderer.update_mesh(mesh, now);
+  for (const Light& light : {Light(0.3, -0.9, 0.6, 0), Light(-0.2, 0.8, 0.7, 0),
+                             Light(0.1, 0.2, 0.9, 0), point({2, -9, 14})}) {
+    for (const Count count : {Count::z_pass, Count::z_fail, Count::mixed}) {
+      Method m;
+      m.count = count;
+      expected.context.make_current();
+      const ShadowMask exact = expected.renderer.mask(camera, light, m).value();
+      stage.context.make_current();
+      for (const SilhouetteBy by :
+           {SilhouetteBy::brute_force, SilhouetteBy::dual_space, SilhouetteBy::edge_tree}) {
+        m.silhouettes = by;
+        const Difference d = compare(stage.renderer.mask(camera, light, m).value(), exact);
+        EXPECT_EQ(d.far_off, 0) << name_of(by) << ", " << name_of(count);
+        EXPECT_LE(d.pixels, 2) << name_of(by) << ", " << name_of(count);
+      }
+    }
+  }
+}
+
+TEST(MovingLights, TheTreeFindsTheGrazedEdgesOfTheLoopThoughTrianglesNeitherCastNorReceive) {
+  TriMesh m;
+  test::add_box(m, {0, 0, 0}, {2, 1, 1});
+  test::add_quad(m, {0, 0, 1}, {2, 0, 1}, {2, 0, 3}, {0, 0, 3});  // casts only
+  test::add_quad(m, {0, 1, 1}, {2, 1, 1}, {2, 1, 3}, {0, 1, 3});  // receives only
+  test::add_quad(m, {0, 0, 1}, {0, 1, 1}, {0, 1, 3}, {0, 0, 3});  // neither
+  m = test::scene_of(m).mesh;
+  std::vector<std::uint8_t> casts(m.triangles.size(), 1), receives(m.triangles.size(), 1);
+  receives[12] = receives[13] = casts[14] = casts[15] = 0;
+  receives[16] = receives[17] = casts[16] = casts[17] = 0;
+  Stage stage = stage_of(test::scene_of(m));
+  stage.context.make_current();
+  GpuMesh mesh = make_gpu_mesh(m, casts, receives);
+  const std::vector<PartPlan> plan(mesh.parts.parts.size());
+  for (const Light& light : {Light(0, 1, 1, 0), Light(1, 0, 2, 0), Light(0, 0, 1, 0),
+                             Light(0.001, 2, 3, 0), Light(0, 0, 9, 1)}) {
+    CasterVolumes loop, tree;
+    mesh.silhouettes = {};
+    update_silhouettes(loop, mesh, 1, light, plan, SilhouetteBy::brute_force);
+    update_silhouettes(tree, mesh, 1, light, plan, SilhouetteBy::edge_tree);
+    EXPECT_EQ(loop.grazed, tree.grazed);
+    EXPECT_EQ(loop.grazed_edges, tree.grazed_edges);
+    ASSERT_EQ(loop.nearly_grazed.size(), tree.nearly_grazed.size());
+    for (std::size_t k = 0; k < loop.nearly_grazed.size(); ++k) {
+      EXPECT_EQ(loop.nearly_grazed[k].triangle, tree.nearly_grazed[k].triangle);
+      EXPECT_EQ(loop.nearly_grazed[k].light_side, tree.nearly_grazed[k].light_side);
     }
   }
 }

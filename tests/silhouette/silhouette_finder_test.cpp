@@ -86,6 +86,28 @@ TEST(SilhouetteFinder, EveryMethodFindsTheSameEdgesWhereATriangleHasLostItsArea)
   }
 }
 
+TEST(SilhouetteFinder, EveryMethodFindsTheSameEdgesOfTrianglesThatHaveLostTheirArea) {
+  TriMesh m;
+  test::add_soup(m, 80, 3, 0, 5);
+  test::add_box(m, {0, 0, 0}, {1, 2, 3});
+  test::add_box(m, {2, 2, 0}, {2.4, 2.4, 0.3});
+  m = test::scene_of(m).mesh;
+  const EdgeTable edges = build_edge_table(m);
+  SilhouetteFinder finders[4];
+  for (Vec3& p : m.positions) p = {std::round(p.x / 2), std::round(p.y / 2), std::round(p.z / 2)};
+  std::mt19937 random(2);
+  for (int k = 0; k < 30; ++k) {
+    const Light light = a_light(random);
+    const Silhouette expected = find_silhouette(edges, light_sides(m, light));
+    for (int f = 0; f < 4; ++f) {
+      Silhouette found;
+      std::vector<std::int8_t> sides;
+      find_silhouette(found, sides, finders[f], kAll[f], m, edges, light);
+      EXPECT_TRUE(same(expected, found)) << f;
+    }
+  }
+}
+
 TEST(SilhouetteFinder, TakesTheTreeOnceManyLightsWereAskedForAndNotForOneFrameOfAnAnimation) {
   TriMesh m;
   test::add_box(m, {0, 0, 0}, {1, 2, 3});

@@ -55,5 +55,31 @@ TEST(PartSilhouettes, AreThoseOfEachPartAloneAndHalfWhereOneSideCasts) {
   }
 }
 
+// A tetrahedron with a vertex on an edge, which a triangle without area joins to it.
+TEST(PartSilhouettes, OfAClosedPartWithATriangleWithoutAreaLoseNoEdge) {
+  TriMesh m;
+  m.positions = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}, {1, 0, 0}};
+  m.triangles = {{0, 2, 4}, {4, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}, {0, 4, 1}};
+  const EdgeTable table = build_edge_table(m);
+  const Parts parts = split_into_parts(m, table);
+  ASSERT_EQ(parts.parts.size(), 1u);
+  ASSERT_TRUE(parts.parts[0].closed);
+  const PartsOfEdges of = parts_of_edges(table, parts, m.positions.size());
+  const CastingSides one = CastingSides::one;
+  for (const Light& light : {Light(1, -2, 1, 0), Light(-1, 2, -3, 0), Light(1, -1, -1, 0),
+                             Light(5, -4, 1, 1), Light(1, 1, 1, 0)}) {
+    const PartSilhouettes split =
+        split_by_part(find_silhouette(table, light_sides(m, light)), of, {&one, 1});
+    std::vector<int> balance(m.positions.size(), 0);
+    for (const SilhouetteEdge& e : split.of(0)) {
+      EXPECT_NE(e.multiplicity, 0);
+      balance[e.a] += e.multiplicity;
+      balance[e.b] -= e.multiplicity;
+    }
+    EXPECT_EQ(balance, std::vector<int>(m.positions.size(), 0));
+    EXPECT_GE(split.of(0).size(), 3u);
+  }
+}
+
 }  // namespace
 }  // namespace gnomon

@@ -12,12 +12,17 @@ struct LightSide {
   }
 };
 
+// 0 only if the triangle has no area.
+int sign_of_side(const Vec3& a, const Vec3& b, const Vec3& c, const Light& light,
+                 ExactStats& stats) {
+  return tie_sign({.eye = false, .light = true, .pixel = false}, stats, LightSide{a, b, c, light});
+}
+
 }  // namespace
 
 int light_side(const Vec3& a, const Vec3& b, const Vec3& c, const Light& light, ExactStats& stats) {
-  const int sign =
-      tie_sign({.eye = false, .light = true, .pixel = false}, stats, LightSide{a, b, c, light});
-  return sign != 0 ? sign : -1;
+  const int side = sign_of_side(a, b, c, light, stats);
+  return side != 0 ? side : -1;
 }
 
 bool zero_area(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -28,8 +33,7 @@ bool zero_area(const Vec3& a, const Vec3& b, const Vec3& c) {
     if (LightSide{a, b, c, Light(0.0)}.operator()<Approx>(0, axis, 0).certain()) return false;
   }
   ExactStats ignored;
-  return tie_sign({.eye = false, .light = true, .pixel = false}, ignored,
-                  LightSide{a, b, c, Light(1, 0, 0, 0)}) == 0;
+  return sign_of_side(a, b, c, Light(1, 0, 0, 0), ignored) == 0;
 }
 
 }  // namespace gnomon

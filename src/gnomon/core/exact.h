@@ -99,8 +99,9 @@ int tie_sign(const Depends& on, ExactStats& stats, const F& f) {
   return 0;
 }
 
-// Sign of |a; b; c; light|: on which side of the plane through a, b, c the light is. Of a triangle
-// without area -1: its prism is empty, so that any sign is right, as long as all ask for the same.
+// Sign of |a; b; c; light|: on which side of the plane through a, b, c the light is. Never 0: of a
+// triangle without area, which a moved mesh may have, it is -1 whatever the light. Its prism holds
+// nothing either way, but the borders of all prisms balance only if every triangle has a side.
 int light_side(const Vec3& a, const Vec3& b, const Vec3& c, const Light& light, ExactStats& stats);
 
 // True if the triangle has no area (exactly).

@@ -174,7 +174,8 @@ double sine_to_light(const TriMesh& mesh, std::uint32_t triangle, const Light& l
   return below > 0 ? std::fabs(glm::dot(n, l - a * light.w)) / below : 0;
 }
 
-// What the light grazes: of casting triangles by the tree, if there is one.
+// What the light grazes: of casting triangles by the tree, if there is one. Triangles that neither
+// cast nor receive are not there.
 void find_grazed(CasterVolumes& v, GpuMesh& m, const Light& light) {
   v.grazed = false;
   v.grazed_edges.clear();
@@ -204,7 +205,9 @@ void find_grazed(CasterVolumes& v, GpuMesh& m, const Light& light) {
     for (const std::uint32_t t : triangles) look(t);
     for (const std::uint32_t t : m.only_receive) look(t);
   } else {
-    for (std::uint32_t t = 0; t < m.mesh.triangles.size(); ++t) look(t);
+    for (std::uint32_t t = 0; t < m.mesh.triangles.size(); ++t) {
+      if (m.casts[t] != 0 || m.receives[t] != 0) look(t);
+    }
   }
   std::sort(v.grazed_edges.begin(), v.grazed_edges.end());
 }
