@@ -216,5 +216,21 @@ TEST(MovingLights, StatsSayWhichVolumesWereKept) {
   EXPECT_EQ(s.kept, 2);
 }
 
+TEST(MovingLights, StatsCountACasterOnceWhereItsVolumesAreDrawnInGroups) {
+  TriMesh m;
+  test::add_ground(m, 20);
+  for (int k = 0; k < 300; ++k) test::add_ground(m, 2, 3 + 0.01 * k);
+  const Scene scene = test::scene_of(m);
+  const View view = aerial(64, 48);
+  const Camera camera = camera_of(view, depth_range(scene, view, true));
+  Stage stage = stage_of(scene);
+  LightSource sun;
+  sun.light = Light(0.2, 0.1, 1, 0);
+  const FrameStats s = stage.renderer.draw(camera, {&sun, 1}, {}).value();
+  EXPECT_GT(s.stencil_groups, 1);
+  EXPECT_EQ(s.rebuilt, 1);
+  EXPECT_EQ(s.kept, 0);
+}
+
 }  // namespace
 }  // namespace gnomon::gl

@@ -11,6 +11,11 @@
 namespace gnomon::gl {
 namespace {
 
+double milliseconds_since(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
+      .count();
+}
+
 // The cut of every volume with the near plane, in clip space, z-pass's start ("Shadow Volumes
 // Revisited", 3.1).
 void make_near_caps(const Frame& frame, std::vector<InstanceVolumes>& all) {
@@ -54,13 +59,11 @@ void update_all_lists(const Frame& frame, const LightPlan& plan, Prepared& prepa
     InstanceVolumes& v = prepared.all[i];
     const bool all_caps = frame.whole_volumes || starts_at_near_plane(plan.method) ||
                           v.plan->caps_in_front != CapsInFront::none;
-    if (update_lists(*v.volumes, *v.mesh, plan.method, v.plan->near, v.plan->project,
-                     v.plan->receivers, all_caps, prepared.grouped ? kGroupLayers : 0,
-                     prepared.changed[i])) {
-      ++frame.stats->rebuilt;
-    } else if (!prepared.grouped) {  // which makes the same volumes a second time
-      ++frame.stats->kept;
-    }
+    const bool made = update_lists(*v.volumes, *v.mesh, plan.method, v.plan->near, v.plan->project,
+                                   v.plan->receivers, all_caps, prepared.grouped ? kGroupLayers : 0,
+                                   prepared.changed[i]);
+    // Groups make the same volumes a second time.
+    if (!prepared.grouped) ++(made ? frame.stats->rebuilt : frame.stats->kept);
   }
   if (plan.method.count == Count::near_cap) make_near_caps(frame, prepared.all);
 }
@@ -138,14 +141,15 @@ Prepared prepare(const Frame& frame, const LightPlan& plan) {
     for (InstanceVolumes& v : out.all) find_rectangles(frame, plan, v);
   }
   update_all_lists(frame, plan, out);
-  frame.stats->volumes_ms +=
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+  frame.stats->volumes_ms += milliseconds_since(begin);
   return out;
 }
 
 void regroup(const Frame& frame, const LightPlan& plan, Prepared& prepared) {
+  const auto begin = std::chrono::steady_clock::now();
   prepared.grouped = true;
   update_all_lists(frame, plan, prepared);
+  frame.stats->volumes_ms += milliseconds_since(begin);
 }
 
 Batch batch_of(const InstanceVolumes& v, std::size_t first, std::size_t last, bool z_fail) {

@@ -29,9 +29,9 @@ struct SilhouetteFinder {
   ExtractionScratch scratch;
 };
 
-// The edges of find_silhouette(), in the order of the EdgeTable. `light`: in the mesh's
-// coordinates, snapped. `sides` becomes light_sides() where they were needed to find it (brute
-// force), else empty. Preconditions: `edges` was built from this mesh; `finder` is of them alone.
+// The edges of find_silhouette(), by brute force in the order of the EdgeTable, else in a tree's.
+// `light`: in the mesh's coordinates, snapped. `sides` becomes light_sides() where it was needed to
+// find them (brute force), else empty. Preconditions: `edges` is of this mesh, `finder` of both.
 void find_silhouette(Silhouette& out, std::vector<std::int8_t>& sides, SilhouetteFinder& finder,
                      SilhouetteBy by, const TriMesh& mesh, const EdgeTable& edges,
                      const Light& light);

@@ -36,7 +36,7 @@ struct LayerItems {
 LayerItems layer_items(const Parts& parts, std::span<const CastingSides> sides = {});
 
 // Cells along one side of the grid of a directional light, or of each of the six faces of a point
-// light's cube. Finer is tighter and slower; 256 keeps the grid at 3 MB.
+// light's cube. Finer is tighter and slower; 256 keeps the grid below 2 MB.
 inline constexpr int kLayerCells = 256;
 
 // At least the number of layers that any one segment from the light crosses, so at least every
@@ -45,7 +45,8 @@ inline constexpr int kLayerCells = 256;
 // included. Light: w > 0 a point, w = 0 a direction; snapped. `spread`: the bound holds for every
 // light that is near() as well. `outlines`: silhouettes of the convex parts, which saves a sun's
 // bound from looking at their triangles. Preconditions: 1 <= cells <= 1024, spread >= 0.
-// Time: items, their triangles and the cells they touch; memory: 8 bytes a cell.
+// Time: items, their triangles and the rows of cells they touch, and all cells once; memory: 4
+// bytes a cell, and 32 for every edge that a sun's bound looks at.
 int layer_bound(const TriMesh& mesh, const LayerItems& items, const Light& light,
                 int cells = kLayerCells, double spread = 0,
                 const PartSilhouettes* outlines = nullptr);
