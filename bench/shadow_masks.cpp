@@ -61,22 +61,14 @@ std::vector<Light> suns_of(int count, double true_north) {
   return lights;
 }
 
-// The counter, its counts turned into the same masks that Embree writes.
+// The counter's masks, as Embree writes them.
 void our_masks(const Casters& casters, const Receivers& receivers, const std::vector<Light>& lights,
                int threads, bool one_by_one, Masks& masks) {
   const std::size_t step = one_by_one ? 1 : lights.size();
   for (std::size_t first = 0; first < lights.size(); first += step) {
-    count_shadows(
-        casters, receivers, std::span(lights).subspan(first, step),
-        [&](const CountBand& band) {
-          for (int row = 0; row < band.rows; ++row) {
-            const std::int32_t* from = band.counts + static_cast<std::ptrdiff_t>(row) * band.stride;
-            std::uint8_t* to = masks[first + static_cast<std::size_t>(band.light)].data() +
-                               static_cast<std::ptrdiff_t>(band.first_row + row) * band.width;
-            for (int k = 0; k < band.width; ++k) to[k] = from[k] > 0 ? 1 : 0;
-          }
-        },
-        threads);
+    std::vector<std::uint8_t*> to;
+    for (std::size_t l = first; l < first + step; ++l) to.push_back(masks[l].data());
+    mask_shadows(casters, receivers, std::span(lights).subspan(first, step), to, threads);
   }
 }
 
