@@ -20,6 +20,7 @@
 #include <gnomon/silhouette/light_sides.h>
 #include <gnomon/silhouette/silhouette.h>
 #include <gnomon/silhouette/sun_sides.h>
+#include <gnomon/silhouette/vector_silhouette.h>
 
 namespace gnomon {
 namespace {
@@ -258,7 +259,7 @@ void find_sides(LightSetup& s, const Casters& casters, const Receivers& r, const
     }
   }
   if (tree == nullptr) {
-    s.silhouette = find_silhouette(casters.edges, s.triangle_sides);
+    find_silhouette_in_vectors(s.silhouette, casters.edges, s.triangle_sides);
   } else {
     ExtractionStats extraction;
     find_silhouette(s.silhouette, *tree, scene.mesh, s.light, s.scratch, &extraction);
