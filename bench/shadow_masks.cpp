@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <optional>
 
 #include <gnomon/io/load_scene.h>
@@ -23,10 +24,18 @@ namespace {
 constexpr double kLift = 1e-3;  // metres, of Embree's rays
 
 struct Options {
-  std::string vienna, out = "bench/results", name = "shadow_masks";
+  std::string vienna, data, out = "bench/results", name = "shadow_masks";
+  std::vector<std::string> cases;  // empty: all
   int runs = 7, threads = 2, suns = 16, buildings = 10000, size = 2048;
-  double pixel = 0.25;
+  bool ours_alone = false;
 };
+
+constexpr const char* kCases[] = {"vienna-0.25", "vienna-0.1", "delfshaven-0.25", "city",
+                                  "one-mask"};
+
+bool chosen(const Options& o, const std::string& name) {
+  return o.cases.empty() || std::find(o.cases.begin(), o.cases.end(), name) != o.cases.end();
+}
 
 struct EmbreeVariant {
   bool robust;
@@ -52,20 +61,15 @@ std::vector<Light> suns_of(int count, double true_north) {
   return lights;
 }
 
-// The counter, its counts turned into the same masks that Embree writes.
+// The counter's masks, as Embree writes them.
 void our_masks(const Casters& casters, const Receivers& receivers, const std::vector<Light>& lights,
-               int threads, Masks& masks) {
-  count_shadows(
-      casters, receivers, lights,
-      [&](const CountBand& band) {
-        for (int row = 0; row < band.rows; ++row) {
-          const std::int32_t* from = band.counts + static_cast<std::ptrdiff_t>(row) * band.stride;
-          std::uint8_t* to = masks[static_cast<std::size_t>(band.light)].data() +
-                             static_cast<std::ptrdiff_t>(band.first_row + row) * band.width;
-          for (int k = 0; k < band.width; ++k) to[k] = from[k] > 0 ? 1 : 0;
-        }
-      },
-      threads);
+               int threads, bool one_by_one, Masks& masks) {
+  const std::size_t step = one_by_one ? 1 : lights.size();
+  for (std::size_t first = 0; first < lights.size(); first += step) {
+    std::vector<std::uint8_t*> to;
+    for (std::size_t l = first; l < first + step; ++l) to.push_back(masks[l].data());
+    mask_shadows(casters, receivers, std::span(lights).subspan(first, step), to, threads);
+  }
 }
 
 std::uint64_t differences(const Masks& a, const Masks& b) {
@@ -85,15 +89,20 @@ struct Contender {
 
 struct Case {
   std::string name;
+  std::string skipped;      // why; nothing else is set then
+  bool one_by_one = false;  // a call of ours for each sun
   std::size_t triangles = 0, samples = 0;
   int width = 0, height = 0, suns = 0;
   double view_ms = 0;                 // visible surfaces, used by all contenders
   std::vector<Contender> contenders;  // the first is ours
 };
 
-Case measure(const std::string& name, const Scene& scene, const View& view, const Options& o) {
+// `one_by_one`: ours is called for each sun by itself, as a user does who wants one mask.
+Case measure(const std::string& name, const Scene& scene, const View& view, const Options& o,
+             bool one_by_one = false) {
   Case c;
   c.name = name;
+  c.one_by_one = one_by_one;
   c.triangles = scene.mesh.triangles.size();
   c.width = view.width;
   c.height = view.height;
@@ -109,19 +118,23 @@ Case measure(const std::string& name, const Scene& scene, const View& view, cons
   watch = Watch();
   const Casters casters = prepare_casters(scene);
   c.contenders.push_back({"ours", watch.seconds() * 1000, {}, 0});
-  watch = Watch();
-  const RayOrigins origins = ray_origins(scene, receivers, kLift, o.threads);
-  const double origins_ms = watch.seconds() * 1000;
-  EmbreeScene::build(scene, {.robust = false, .threads = o.threads}).value();  // starts its threads
   std::vector<EmbreeScene> embree;
-  double build_ms[2];
-  for (const bool robust : {false, true}) {
+  RayOrigins origins;
+  if (!o.ours_alone) {
     watch = Watch();
-    embree.push_back(EmbreeScene::build(scene, {.robust = robust, .threads = o.threads}).value());
-    build_ms[robust ? 1 : 0] = watch.seconds() * 1000;
+    origins = ray_origins(scene, receivers, kLift, o.threads);
+    const double origins_ms = watch.seconds() * 1000;
+    EmbreeScene::build(scene, {.robust = false, .threads = o.threads})
+        .value();  // starts its threads
+    double build_ms[2];
+    for (const bool robust : {false, true}) {
+      watch = Watch();
+      embree.push_back(EmbreeScene::build(scene, {.robust = robust, .threads = o.threads}).value());
+      build_ms[robust ? 1 : 0] = watch.seconds() * 1000;
+    }
+    for (const EmbreeVariant& v : kVariants)
+      c.contenders.push_back({v.name(), build_ms[v.robust ? 1 : 0] + origins_ms, {}, 0});
   }
-  for (const EmbreeVariant& v : kVariants)
-    c.contenders.push_back({v.name(), build_ms[v.robust ? 1 : 0] + origins_ms, {}, 0});
 
   const std::size_t pixels =
       static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height);
@@ -130,7 +143,7 @@ Case measure(const std::string& name, const Scene& scene, const View& view, cons
     for (std::size_t k = 0; k < c.contenders.size(); ++k) {
       watch = Watch();
       if (k == 0) {
-        our_masks(casters, receivers, lights, o.threads, ours);
+        our_masks(casters, receivers, lights, o.threads, one_by_one, ours);
       } else {
         const EmbreeVariant& v = kVariants[k - 1];
         for (std::size_t l = 0; l < lights.size(); ++l) {
@@ -162,13 +175,18 @@ std::string markdown(const std::vector<Case>& cases, const Options& o) {
       "variant.\n",
       to_text(this_machine()), o.threads, o.runs);
   for (const Case& c : cases) {
+    if (!c.skipped.empty()) {
+      text += fmt::format("\n## {}\n\nskipped: {}\n", c.name, c.skipped);
+      continue;
+    }
     text += fmt::format(
-        "\n## {}\n\n{} triangles, {} x {} pixels, {} samples, {} suns. Visible surfaces, shared by "
-        "all: {:.0f} ms.\n\n"
+        "\n## {}\n\n{} triangles, {} x {} pixels, {} samples, {} suns{}. Visible surfaces, shared "
+        "by all: {:.0f} ms.\n\n"
         "| | ms per sun | fastest | slowest | times ours | set-up ms | samples that differ from "
         "ours, all suns |\n"
         "|---|--:|--:|--:|--:|--:|--:|\n",
-        c.name, c.triangles, c.width, c.height, c.samples, c.suns, c.view_ms);
+        c.name, c.triangles, c.width, c.height, c.samples, c.suns,
+        c.one_by_one ? ", each by a call of its own" : "", c.view_ms);
     const double ours = median(c.contenders[0].times);
     for (const Contender& k : c.contenders) {
       const auto [least, most] = std::minmax_element(k.times.begin(), k.times.end());
@@ -176,6 +194,7 @@ std::string markdown(const std::vector<Case>& cases, const Options& o) {
                           median(k.times), *least, *most, median(k.times) / ours, k.setup_ms,
                           &k == &c.contenders[0] ? std::string("-") : std::to_string(k.differing));
     }
+    if (c.contenders.size() == 1) continue;
     text += fmt::format("\nPeer: {}; ours is {:.2f} times as fast per sun.\n", peer(c).name,
                         median(peer(c).times) / ours);
   }
@@ -188,15 +207,22 @@ nlohmann::ordered_json json(const std::vector<Case>& cases, const Options& o) {
                              {"runs", o.runs},
                              {"lift_m", kLift}};
   for (const Case& c : cases) {
+    if (!c.skipped.empty()) {
+      out["cases"].push_back({{"name", c.name}, {"skipped", c.skipped}});
+      continue;
+    }
     nlohmann::ordered_json one{{"name", c.name},
                                {"triangles", c.triangles},
                                {"width", c.width},
                                {"height", c.height},
                                {"samples", c.samples},
                                {"suns", c.suns},
-                               {"view_ms", c.view_ms},
-                               {"peer", peer(c).name},
-                               {"ratio", median(peer(c).times) / median(c.contenders[0].times)}};
+                               {"one_by_one", c.one_by_one},
+                               {"view_ms", c.view_ms}};
+    if (c.contenders.size() > 1) {
+      one["peer"] = peer(c).name;
+      one["ratio"] = median(peer(c).times) / median(c.contenders[0].times);
+    }
     for (const Contender& k : c.contenders) {
       one["contenders"].push_back({{"name", k.name},
                                    {"ms_per_sun", median(k.times)},
@@ -221,16 +247,35 @@ Bounds2 bounds_without_ground(const Scene& scene) {
   return b;
 }
 
+Case skipped(const std::string& name, const std::string& why) {
+  Case c;
+  c.name = name;
+  c.skipped = why;
+  return c;
+}
+
 void run(const Options& o) {
   std::vector<Case> cases;
-  if (!o.vienna.empty()) {
+  const auto city_model = [&](const std::string& name, const std::string& title,
+                              const std::string& file, const std::string& crs, double pixel,
+                              bool one_by_one = false) {
+    if (!chosen(o, name)) return;
+    if (!std::filesystem::exists(file)) {
+      cases.push_back(skipped(
+          title, file.empty() ? "no file was named" : fmt::format("{} is not there", file)));
+      return;
+    }
     LoadOptions load;
-    load.crs = "EPSG:31256";
-    const Scene scene = std::move(load_scene({o.vienna}, load).value().scene);
-    cases.push_back(measure(fmt::format("Vienna at {} m", o.pixel), scene,
-                            plan_view(bounds_without_ground(scene), o.pixel, 0), o));
-  }
-  if (o.buildings > 0) {
+    load.crs = crs;
+    const Scene scene = std::move(load_scene({file}, load).value().scene);
+    cases.push_back(
+        measure(title, scene, plan_view(bounds_without_ground(scene), pixel, 0), o, one_by_one));
+  };
+  const std::string delfshaven = o.data.empty() ? "" : o.data + "/city/3-20-DELFSHAVEN.city.json";
+  city_model("vienna-0.25", "Vienna at 0.25 m", o.vienna, "EPSG:31256", 0.25);
+  city_model("vienna-0.1", "Vienna at 0.1 m", o.vienna, "EPSG:31256", 0.1);
+  city_model("delfshaven-0.25", "Delfshaven at 0.25 m", delfshaven, "EPSG:28992", 0.25);
+  if (o.buildings > 0 && chosen(o, "city")) {
     const scenes::CityOptions city{.buildings = o.buildings};
     const Scene scene = scenes::generated_city(city);
     const Bounds2 b = scenes::city_bounds(city);
@@ -239,6 +284,7 @@ void run(const Options& o) {
     cases.push_back(
         measure(fmt::format("Generated city of {} buildings", o.buildings), scene, view, o));
   }
+  city_model("one-mask", "One mask alone, Vienna at 0.25 m", o.vienna, "EPSG:31256", 0.25, true);
   const std::string text = markdown(cases, o);
   fmt::print("{}", text);
   write_results(o.out, o.name, text, json(cases, o));
@@ -250,8 +296,12 @@ void run(const Options& o) {
 int main(int argc, char** argv) {
   gnomon::bench::Options o;
   CLI::App app{"Shadow masks of many suns over one view: the counter and Embree"};
-  app.add_option("--vienna", o.vienna, "CityJSON file of Vienna; without it this case is left out");
-  app.add_option("--pixel", o.pixel, "Metres per pixel of Vienna")->capture_default_str();
+  app.add_option("--vienna", o.vienna, "CityJSON file of Vienna; without it its cases are skipped");
+  app.add_option("--data", o.data, "Folder of real models; without it Delfshaven is skipped");
+  app.add_option("--case", o.cases, "Measure this one (may be repeated; default: all)")
+      ->check(CLI::IsMember(std::vector<std::string>(std::begin(gnomon::bench::kCases),
+                                                     std::end(gnomon::bench::kCases))));
+  app.add_flag("--ours-alone", o.ours_alone, "Leave Embree out (to look for where time goes)");
   app.add_option("--buildings", o.buildings, "Of the generated city; 0 leaves it out")
       ->capture_default_str();
   app.add_option("--size", o.size, "Pixels per side of the generated city")->capture_default_str();

@@ -53,6 +53,12 @@ struct CountStats {
 CountStats count_shadows(const Casters& casters, const Receivers& receivers,
                          std::span<const Light> lights, const BandSink& sink, int threads = 0);
 
+// The same for whoever wants no counts, and faster: masks[i] receives width * height bytes,
+// row-major, of light i: 1 where the count is > 0, else 0. Precondition: as many masks as lights.
+CountStats mask_shadows(const Casters& casters, const Receivers& receivers,
+                        std::span<const Light> lights, std::span<std::uint8_t* const> masks,
+                        int threads = 0);
+
 // The specification: every sample against every side and caster by the exact predicates, no spans,
 // no filter of its own. Slow. Row-major counts as in CountBand.
 std::vector<std::int32_t> count_shadows_reference(const Casters& casters,

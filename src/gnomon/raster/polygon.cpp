@@ -202,6 +202,31 @@ bool set_rows_of_strip(Polygon& p, const ScreenPoint<double>& a, const ScreenPoi
   return true;
 }
 
+Span widest_span(const Polygon& p, int row, int width, bool& undecided) {
+  const double y = row + kPixelCentre;
+  double begin = 0, end = width;
+  undecided = false;
+  for (int edge = 0; edge < 3; ++edge) {
+    const RowEdge& e = p.edges[edge];
+    const double x = e.x0 + e.k * y;
+    if (p.kinds[edge] == EdgeKind::kFlat) {
+      if (x < -e.slack) return {0, 0};
+      undecided |= !(x > e.slack);
+      continue;
+    }
+    const double low = std::floor(x + kPixelCentre - e.slack),
+                 high = std::floor(x + kPixelCentre + e.slack);
+    undecided |= low != high;
+    if (p.kinds[edge] == EdgeKind::kLower) {
+      begin = std::max(begin, low);
+    } else {
+      end = std::min(end, high);
+    }
+  }
+  if (!(begin < end)) return {0, 0};  // also where undecided: even the widest reading is empty
+  return {static_cast<int>(begin), static_cast<int>(end)};
+}
+
 Span exact_span(const Polygon& p, const ExactPolygon& exact, int row, ExactStats& stats) {
   const double y = row + kPixelCentre;
   const int width = exact.view.width;

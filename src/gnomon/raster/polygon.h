@@ -115,6 +115,10 @@ struct Span {
   int begin = 0, end = 0;  // pixels of a row: [begin, end)
 };
 
+// The pixels of a row that the polygon may cover, by floating point; `undecided`: exact_span() has
+// to be asked.
+Span widest_span(const Polygon& p, int row, int width, bool& undecided);
+
 // What exact decisions on a polygon need.
 struct ExactPolygon {
   const View& view;

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include <gnomon/core/parallel.h>
+#include <gnomon/raster/least_cells.h>
 #include <gnomon/raster/polygon.h>
 
 namespace gnomon {
@@ -79,32 +80,6 @@ Prepared prepare(const Scene& scene, const View& view, const ScreenSpace& space,
   return out;
 }
 
-// The pixels of a row, by floating point where the slack allows it.
-Span row_span(const Polygon& p, int row, int width, bool& undecided) {
-  const double y = row + kPixelCentre;
-  double begin = 0, end = width;
-  undecided = false;
-  for (int edge = 0; edge < 3; ++edge) {
-    const RowEdge& e = p.edges[edge];
-    const double x = e.x0 + e.k * y;
-    if (p.kinds[edge] == EdgeKind::kFlat) {
-      if (x < -e.slack) return {0, 0};
-      undecided |= !(x > e.slack);
-      continue;
-    }
-    const double low = std::floor(x + kPixelCentre - e.slack),
-                 high = std::floor(x + kPixelCentre + e.slack);
-    undecided |= low != high;
-    if (p.kinds[edge] == EdgeKind::kLower) {
-      begin = std::max(begin, low);
-    } else {
-      end = std::min(end, high);
-    }
-  }
-  if (!(begin < end)) return {0, 0};  // also where undecided: even the widest reading is empty
-  return {static_cast<int>(begin), static_cast<int>(end)};
-}
-
 // One band of the z-buffer, in double, with exact decisions where two surfaces are too close to
 // call.
 class Band {
@@ -122,7 +97,7 @@ class Band {
   void draw(std::uint32_t index, int row) {
     const Polygon& p = prepared_.polygons[index];
     bool undecided = false;
-    Span span = row_span(p, row, view_.width, undecided);
+    Span span = widest_span(p, row, view_.width, undecided);
     if (span.begin >= span.end) return;
     if (undecided) {
       const ExactPolygon exact{view_, corners_of(scene_, p.id), p.facing, Light(0.0)};
@@ -261,6 +236,7 @@ Receivers visible_surfaces(const Scene& scene, const View& view, int threads, Ex
   out.nearness_floor = nearest * kFloorShare;
   parallel_for(bands, threads,
                [&](int b) { drawn[static_cast<std::size_t>(b)]->store(out, out.nearness_floor); });
+  out.cells = least_cells(scene, out, threads);
   if (stats != nullptr) *stats += local;
   return out;
 }

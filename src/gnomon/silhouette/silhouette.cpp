@@ -7,15 +7,27 @@ namespace gnomon {
 
 Silhouette find_silhouette(const EdgeTable& edges, const std::vector<std::int8_t>& sides) {
   Silhouette silhouette;
+  // Which edges are on it nobody can foresee: each is written, and the next one over it if it is
+  // not.
+  std::array<SilhouetteEdge, 256> found;
+  std::size_t n = 0;
   for (std::size_t k = 0; k < edges.vertices.size(); ++k) {
     std::int32_t m = 0;
     for (std::uint32_t i = edges.first[k]; i < edges.first[k + 1]; ++i) {
       const std::uint32_t incidence = edges.incidence[i];
       const std::int32_t side = sides[incidence >> 1];
-      m += (incidence & 1) != 0 ? -side : side;
+      const std::int32_t backward = incidence & 1;
+      m += (side ^ -backward) + backward;
     }
-    if (m != 0) silhouette.push_back({edges.vertices[k][0], edges.vertices[k][1], m});
+    found[n] = {edges.vertices[k][0], edges.vertices[k][1], m};
+    n += m != 0 ? 1 : 0;
+    if (n == found.size()) {
+      silhouette.insert(silhouette.end(), found.begin(), found.end());
+      n = 0;
+    }
   }
+  silhouette.insert(silhouette.end(), found.begin(),
+                    found.begin() + static_cast<std::ptrdiff_t>(n));
   return silhouette;
 }
 

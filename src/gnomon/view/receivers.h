@@ -11,6 +11,19 @@ namespace gnomon {
 
 inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;
 
+// The lowest nearness under any rectangle of the picture: what a shadow volume's side can matter
+// for ends there. raster/least_cells.h makes it and asks it.
+inline constexpr int kCellShift = 4;  // cells of 16 x 16 pixels at the lowest level
+struct LeastCells {
+  struct Level {  // cells of 2^(kCellShift + level) pixels a side
+    int width = 0, height = 0;
+    std::vector<float> least;  // row-major; no sample's exact nearness is below; infinity where
+                               // there are no samples
+  };
+  int width = 0, height = 0;  // pixels
+  std::vector<Level> levels;  // the last has one cell
+};
+
 struct Receivers {
   View view;
   // Row-major, row 0 at the top, width * height each.
@@ -24,6 +37,7 @@ struct Receivers {
   bool casters_in_front =
       false;  // some caster does not receive: rays may cross casters before they reach their sample
   bool receivers_not_casting = false;
+  LeastCells cells;  // of nearness; without levels: not made yet. Whoever changes nearness empties it.
 };
 
 }  // namespace gnomon
