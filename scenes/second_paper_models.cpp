@@ -52,9 +52,13 @@ bool write(const std::filesystem::path& folder, const std::string& name, const S
 
 int main(int count, char** words) {
   using namespace gnomon;
-  if (count != 2) {
-    std::fprintf(stderr, "second_paper_models FOLDER\n");
-    return 2;
+  if (count != 2 || words[1][0] == '-') {
+    std::fprintf(stderr,
+                 "second_paper_models FOLDER: writes tower.obj, industry.obj and office.obj, which "
+                 "stand in for the models of \"Geometry of shadows in real time\", and their "
+                 "colours\n");
+    return count == 2 && (words[1] == std::string("--help") || words[1] == std::string("-h")) ? 0
+                                                                                              : 2;
   }
   const std::filesystem::path folder = words[1];
   std::error_code failed;

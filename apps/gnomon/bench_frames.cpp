@@ -312,7 +312,9 @@ std::string bench_figure_4(const scenes::PaperScene& s, const FrameBench& o, Pro
 
 void add_frame_options(CLI::App& command, FrameBench& o) {
   o.method.reach = gl::Reach::infinite;  // as the papers have it
-  command.add_option("--frames", o.frames, "Frames of the animation")
+  command
+      .add_option("--frames", o.frames,
+                  "Frames of the animation; of the second paper's scenes, suns")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
   command.add_option("--size", o.sizes, "Only these window sizes of the first paper's table")

@@ -9,62 +9,17 @@
 
 #include <fmt/format.h>
 #include <gnomon/core/exact.h>
-#include <gnomon/profile/study_times.h>
 #include <gnomon/silhouette/edge_tree.h>
 #include <gnomon/silhouette/hextree.h>
 #include <gnomon/silhouette/light_sides.h>
 
 #include <bench/report.h>
-#include <scenes/second_paper_scenes.h>
 
 #include "bench_tables.h"
 #include "commands.h"
-#include "model_options.h"
 
 namespace gnomon::app {
 namespace {
-
-// Hours of a day: the paper's, on 18 September (Figures 5 to 7); year and longitudes are ours.
-struct Day {
-  double latitude, longitude;  // degrees
-  const char *from, *to, *zone;
-};
-constexpr const char* kDate = "2024-09-18";
-constexpr Day kVienna{48.2, 16.4, "9:00", "17:00", "Europe/Vienna"};
-
-struct PaperTimes {
-  double brute, dual;  // ms: Tables 1 and 2
-};
-
-struct Row {
-  std::string name;
-  Scene scene;
-  Day day;
-  std::optional<PaperTimes> paper{};
-};
-
-Row row_of(const std::string& word) {
-  using scenes::OfficeCasters;
-  if (word == "tower") {
-    return {"Eiffel Tower (ours: `lattice_tower`)",
-            scenes::lattice_tower(),
-            {48.8, 2.3, "10:00", "14:00", "Europe/Paris"},
-            PaperTimes{4.584, 4.236}};
-  }
-  if (word == "industry") {
-    return {"Industry Area (ours: `industry_area`)",
-            scenes::industry_area(),
-            {45.2, 9.2, "12:00", "15:00", "Europe/Rome"},
-            PaperTimes{7.299, 5.799}};
-  }
-  if (word == "office") {
-    return {"Uniqua Building (ours: `office_building`)",
-            scenes::office_building(OfficeCasters::facade_and_concrete), kVienna,
-            PaperTimes{44.486, 39.331}};
-  }
-  return {"Uniqua Building, all casting", scenes::office_building(OfficeCasters::all), kVienna,
-          PaperTimes{58.666, 48.872}};
-}
 
 // Only what casts: no method is to look at the rest.
 TriMesh casters_of(const Scene& scene) {
@@ -82,17 +37,6 @@ TriMesh casters_of(const Scene& scene) {
       v = now[v];
     }
     out.triangles.push_back(corners);
-  }
-  return out;
-}
-
-// The suns in the middle of each minute.
-std::vector<Light> suns_of(const Day& day) {
-  const Samples samples = take(study_samples({kDate, day.from, day.to, "1min", day.zone},
-                                             {day.latitude * kDegree, day.longitude * kDegree}, 0));
-  std::vector<Light> out;
-  for (const TimeSample& s : samples.midpoints) {
-    if (s.up) out.push_back(snapped(s.light));
   }
   return out;
 }
@@ -172,19 +116,11 @@ void measure(std::vector<Way>& ways, const std::vector<Light>& suns, int rounds)
   }
 }
 
-std::string significant(double value) {  // three digits
-  return fmt::format("{:.{}f}", value, value < 0.0995 ? 4 : value < 0.995 ? 3 : 2);
-}
-
-std::string ratio(double a, double b) {
-  return fmt::format("{:.{}f}", a / b, a / b < 0.0995 ? 3 : 2);
-}
-
 struct Lines {
   std::string times, rest;
 };
 
-Lines measure_row(const Row& r, int rounds) {
+Lines measure_row(const PaperScene& r, int rounds) {
   const TriMesh mesh = casters_of(r.scene);
   if (mesh.triangles.empty()) throw Failure(r.name + ": nothing casts; choose another model");
   const std::vector<Light> suns = suns_of(r.day);
@@ -252,24 +188,16 @@ Lines measure_row(const Row& r, int rounds) {
 
 }  // namespace
 
-std::string bench_silhouettes(const SilhouetteBench& o, ProgressBar& bar, double from, double to) {
-  std::vector<Row> models;  // read before anything is measured: errors come at once
-  for (const std::filesystem::path& file : o.models) {
-    ModelOptions model{{file}, {}};
-    model.load.ground = "none";
-    models.push_back({title_of(model), read_models(model, o.quiet).scene, kVienna});
-    print_warnings(models.back().scene.warnings);
-  }
-  const double share = (to - from) / double(o.scenes.size() + models.size());
+std::string bench_silhouettes(std::span<const PaperScene> scenes, int rounds, ProgressBar& bar,
+                              double from, double to) {
+  const double share = (to - from) / double(scenes.size());
   std::string times, rest;
-  const auto add = [&](const Row& r) {
-    const Lines lines = measure_row(r, o.rounds);
+  for (const PaperScene& scene : scenes) {
+    const Lines lines = measure_row(scene, rounds);
     times += lines.times;
     rest += lines.rest;
     bar.show(from += share);
-  };
-  for (const std::string& word : o.scenes) add(row_of(word));
-  for (const Row& model : models) add(model);
+  }
   std::vector<std::string> columns{"number of triangles (casting)", "brute force, ms"};
   for (const char* way :
        {"dual space, vertices", "dual space, facets", "tree of edges", "brute force, vectors"}) {
@@ -297,7 +225,7 @@ std::string bench_silhouettes(const SilhouetteBench& o, ProgressBar& bar, double
              "scenes/second_paper_scenes.h says what "
              "is known of them and what stands in for them. Rows without its numbers are files "
              "of models, without a ground, that it does not have.\n\n",
-             Hextree::kDepth, o.rounds, o.rounds) +
+             Hextree::kDepth, rounds, rounds) +
          header("scene", columns) + times +
          fmt::format(
              "\nSilhouette edges are means over the suns, {}; \"of these\": how many of "
@@ -305,7 +233,7 @@ std::string bench_silhouettes(const SilhouetteBench& o, ProgressBar& bar, double
              "the tree of dual space holds there, as no smaller cube encloses both duals; they are "
              "tested under every sun. Built: once for a scene, ms, median of "
              "{}; trees after the table of edges.\n\n",
-             kDate, std::min(o.rounds, kBuilds)) +
+             kPaperDate, std::min(rounds, kBuilds)) +
          header("scene",
                 {"suns", "silhouette edges", "by vertices", "of these on the silhouette",
                  "in the root, vertices", "in the root, facets", "table of edges built, ms",

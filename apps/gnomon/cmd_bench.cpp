@@ -14,8 +14,12 @@
 #include "bench_silhouettes.h"
 #include "commands.h"
 #include "progress.h"
+#include "second_paper.h"
 #ifdef GNOMON_HAVE_GL
+#include <gnomon/gl/context.h>
+
 #include "bench_frames.h"
+#include "bench_sun_frames.h"
 #endif
 
 namespace gnomon::app {
@@ -37,6 +41,7 @@ struct Options {
   std::vector<std::string> scenes;  // empty: all there are
   std::vector<std::filesystem::path> models;
   std::string output;
+  bool alone = false;  // silhouettes without whole frames
 #ifdef GNOMON_HAVE_GL
   FrameBench frames;
 #endif
@@ -62,12 +67,12 @@ std::vector<std::string> chosen(const std::vector<std::string>& scenes,
 void run(const Options& o) {
   const std::vector<std::string> scenes = o.scenes.empty() ? all_scenes() : o.scenes;
   const std::vector<std::string> frame_scenes = chosen(scenes, kFrameScenes);
-  SilhouetteBench silhouettes{o.rounds, chosen(scenes, kSilhouetteScenes), o.models,
-                              o.common.quiet};
+  const std::vector<std::string> silhouette_scenes = chosen(scenes, kSilhouetteScenes);
+  std::vector<std::filesystem::path> models = o.models;
   if (!chosen(scenes, {"vienna"}).empty()) {
     std::error_code unknown;
     if (std::filesystem::exists(kViennaFile, unknown)) {
-      silhouettes.models.insert(silhouettes.models.begin(), kViennaFile);
+      models.insert(models.begin(), kViennaFile);
     } else if (!o.scenes.empty()) {
       throw Failure(fmt::format(
           "{} is not there: run the command in the source tree's folder, or give the file by "
@@ -82,26 +87,49 @@ void run(const Options& o) {
       print_warnings(left_out);
     }
   }
-  const bool frames = !frame_scenes.empty(),
-             edges = !silhouettes.scenes.empty() || !silhouettes.models.empty();
+  const bool frames = !frame_scenes.empty(), edges = !silhouette_scenes.empty() || !models.empty();
+#ifdef GNOMON_HAVE_GL
+  if (!frames && o.frames.method.silhouettes != SilhouetteBy::automatic) {
+    throw Failure(
+        "--silhouettes: the second paper's scenes are measured by every way there is; leave it "
+        "out, or add --scene convex, concave or figures, whose silhouettes it chooses");
+  }
+  if (edges && !o.alone) {
+    const auto context =
+        gl::HeadlessContext::create(o.frames.api == "gles" ? gl::Api::opengl_es : gl::Api::opengl);
+    if (!context) {
+      throw Failure(context.error().message +
+                    " With --alone, the second paper's scenes are measured without OpenGL.");
+    }
+  }
+#endif
+  if (!o.output.empty()) take(AtomicFile::create(o.output));  // can it be written?
+  // Read before anything is measured: errors come at once.
+  const std::vector<PaperScene> paper_scenes =
+      second_paper_scenes(silhouette_scenes, models, o.common.quiet);
   std::string text = fmt::format("# The papers' tables, here\n\nMachine: {}.\n",
                                  bench::to_text(bench::this_machine()));
   {
     ProgressBar bar("bench paper", o.common.quiet);
-    // These first, and after the others in the text: a model that cannot be read says so at once.
-    const double share = !edges ? 0 : frames ? 0.2 : 1;
-    const std::string of_edges =
-        edges ? bench_silhouettes(silhouettes, bar, 0, share) : std::string();
+    const bool sun_frames = kHaveFrames && edges && !o.alone;
+    const double whole = frames ? (sun_frames ? 0.5 : 0.8) : 0, alone = sun_frames ? 0.2 : 1;
 #ifdef GNOMON_HAVE_GL
     if (frames) {
       FrameBench b = o.frames;
       b.rounds = o.rounds;
       b.threads = o.common.threads;
       b.scenes = frame_scenes;
-      text += bench_frames(b, bar, share, 1);
+      text += bench_frames(b, bar, 0, edges ? whole : 1);
     }
 #endif
-    text += of_edges;
+    const double middle = whole + (1 - whole) * alone;
+    if (edges) text += bench_silhouettes(paper_scenes, o.rounds, bar, whole, middle);
+#ifdef GNOMON_HAVE_GL
+    if (sun_frames) {
+      text += bench_sun_frames(paper_scenes, o.frames.method, o.frames.api, o.frames.frames,
+                               o.rounds, bar, middle, 1);
+    }
+#endif
   }
   if (o.output.empty()) {
     fmt::print("{}", text);
@@ -126,8 +154,8 @@ void add_bench(CLI::App& app) {
   const std::string frames =
                         "convex, concave (first paper, frames a second), figures (third paper)",
                     edges =
-                        "tower, industry, office, office-all, vienna (second paper, "
-                        "silhouettes; they need no OpenGL)";
+                        "tower, industry, office, office-all, vienna (second paper: "
+                        "silhouettes alone and, by OpenGL, whole frames)";
   command
       ->add_option("--scene", o.scenes,
                    "Only these scenes: " + (kHaveFrames ? frames + ", " + edges : edges))
@@ -142,6 +170,9 @@ void add_bench(CLI::App& app) {
                                : "Times that each silhouette is measured")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
+  command->add_flag(
+      "--alone", o.alone,
+      "Of the second paper's scenes only the silhouettes alone, which need no OpenGL");
 #ifdef GNOMON_HAVE_GL
   add_frame_options(*command, o.frames);
 #endif

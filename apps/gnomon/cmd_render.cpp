@@ -8,10 +8,12 @@
 #include <gnomon/gl/context.h>
 #include <gnomon/gl/mask_bounds.h>
 #include <gnomon/gl/renderer.h>
+#include <gnomon/io/atomic_file.h>
 #include <gnomon/io/png.h>
 #include <gnomon/shadow/cast_shadows.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
 
 #include "commands.h"
 #include "model_options.h"
@@ -32,6 +34,7 @@ struct Options {
   std::vector<std::string> show;
   std::string observer, observer_target;
   std::string output = "gnomon.png";
+  std::string summary;  // empty: none
   double near_plane = 0;
   bool check = false;
   bool samples_given = false;
@@ -143,6 +146,26 @@ std::string volumes_of(const gl::FrameStats& s) {
   return text;
 }
 
+// What --summary writes: how the picture was drawn, with the counters of the cache of volumes.
+std::string summary_of(const Options& o, const gl::FrameStats& s, const Scene& scene,
+                       std::size_t lights, double ms) {
+  nlohmann::ordered_json json;
+  json["program"] = "gnomon";
+  json["version"] = GNOMON_VERSION;
+  json["picture"] = o.output;
+  json["triangles"] = scene.mesh.triangles.size();
+  json["lights"] = lights;
+  json["method"] = gl::describe(s.method);
+  json["silhouettes_by"] = gl::name_of(s.method.silhouettes);
+  json["volumes"] = {{"z_pass", s.z_pass_volumes},       {"z_fail", s.z_fail_volumes},
+                     {"of_polygons", s.polygon_volumes}, {"triangles", s.volume_triangles},
+                     {"scissored", s.scissored_volumes}, {"culled", s.culled_volumes}};
+  json["volume_cache"] = {{"casters_made_anew", s.rebuilt}, {"casters_kept", s.kept}};
+  json["passes"] = s.passes;
+  json["timings_ms"] = {{"volumes", s.volumes_ms}, {"first_frame", ms}};
+  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
 std::string drawing_of(const gl::FrameStats& s) {
   std::string text = counted(s.passes, "pass of the scene", "passes of the scene");
   if (s.rectangles > 0)
@@ -224,6 +247,9 @@ void run(const Options& o) {
   const double ms =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
   take(write_png(o.output, picture, o.common.threads));
+  if (!o.summary.empty()) {
+    take(write_text_file(o.summary, summary_of(o, stats, scene, lights.lights.size(), ms)));
+  }
 
   Warnings warnings = scene.warnings;
   append(warnings, lights.warnings);
@@ -261,9 +287,10 @@ void run(const Options& o) {
   fmt::print("{}, {} x {} pixels, {} triangles, {}\n", title_of(o.models), view.width, view.height,
              scene.mesh.triangles.size(), lights.first.words);
   fmt::print("{}\n", gl::describe(stats.method));
-  fmt::print("shadow volumes: {}\n", volumes_of(stats));
+  fmt::print("shadow volumes: {}; made in {:.3g} ms\n", volumes_of(stats), stats.volumes_ms);
   fmt::print("drawing: {}, first frame {:.0f} ms\n", drawing_of(stats), ms);
   fmt::print("  {}\n", o.output);
+  if (!o.summary.empty()) fmt::print("  {}\n", o.summary);
 }
 
 }  // namespace
@@ -316,6 +343,11 @@ void add_render(CLI::App& app) {
       ->group("View");
   command->add_option("-o,--output", o.output, "The PNG file")
       ->capture_default_str()
+      ->group("Output");
+  command
+      ->add_option(
+          "--summary", o.summary,
+          "A JSON file of how it was drawn: method, volumes, which of them were kept, times")
       ->group("Output");
   add_common(*command, o.common);
   CLI::Option* samples = command->get_option("--samples");

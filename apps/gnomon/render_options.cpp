@@ -124,6 +124,11 @@ void add_method_options(CLI::App& command, gl::Method& m) {
              "How far volumes reach");
   add_choice(command, "--primitives", m.primitives,
              {Primitives::quads, Primitives::strips, Primitives::fans}, "How sides are sent");
+  add_choice(
+      command, "--silhouettes", m.silhouettes,
+      {SilhouetteBy::automatic, SilhouetteBy::brute_force, SilhouetteBy::dual_space,
+       SilhouetteBy::edge_tree},
+      "How silhouettes are found (auto: the tree of edges once a model has met many lights)");
   add_choice(command, "--shadows", m.shadows,
              {Shadows::automatic, Shadows::lights, Shadows::black, Shadows::ambient,
               Shadows::attenuated, Shadows::none},

@@ -103,21 +103,18 @@ TEST(SilhouetteOfFew, IsThatOfAPartOfTheseTriangles) {
   test::add_soup(m, 150, 2, 1, 5);
   test::add_box(m, {0, 0, 0}, {1, 1, 1});
   const Scene s = test::scene_of(m);
-  const EdgeTable table = build_edge_table(s.mesh);
-  std::vector<std::uint32_t> all(table.vertices.size());
-  for (std::uint32_t k = 0; k < all.size(); ++k) all[k] = k;
   for (const Light& light : {Light(1, 2, 3, 0), Light(0, 0, 1, 0), Light(0.5, 0.5, 4, 1)}) {
     const auto sides = light_sides(s.mesh, light);
     for (const Casting casting : {Casting::all_triangles, Casting::negative_sides}) {
       for (std::uint32_t first = 0; first + 20 < s.mesh.triangles.size(); first += 20) {
         std::vector<std::uint32_t> few;
-        std::vector<std::uint32_t> group(s.mesh.triangles.size(), 0);
+        std::vector<std::uint8_t> casting_few(s.mesh.triangles.size(), 0);
         for (std::uint32_t t = first; t < first + 20; ++t) {
           few.push_back(t);
-          group[t] = 1;
+          casting_few[t] = casts(casting, sides[t]) ? 1 : 0;
         }
-        Silhouette expected, ours;
-        find_part_silhouette(expected, table, all, group, 1, sides, casting);
+        const Silhouette expected = find_silhouette(build_edge_table(s.mesh, casting_few), sides);
+        Silhouette ours;
         find_silhouette_of_few(ours, s.mesh, few, sides, casting);
         ASSERT_EQ(ours.size(), expected.size());
         for (std::size_t k = 0; k < ours.size(); ++k) {

@@ -15,7 +15,9 @@ struct LightSide {
 }  // namespace
 
 int light_side(const Vec3& a, const Vec3& b, const Vec3& c, const Light& light, ExactStats& stats) {
-  return tie_sign({.eye = false, .light = true, .pixel = false}, stats, LightSide{a, b, c, light});
+  const int sign =
+      tie_sign({.eye = false, .light = true, .pixel = false}, stats, LightSide{a, b, c, light});
+  return sign != 0 ? sign : -1;
 }
 
 bool zero_area(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -26,7 +28,8 @@ bool zero_area(const Vec3& a, const Vec3& b, const Vec3& c) {
     if (LightSide{a, b, c, Light(0.0)}.operator()<Approx>(0, axis, 0).certain()) return false;
   }
   ExactStats ignored;
-  return light_side(a, b, c, Light(1, 0, 0, 0), ignored) == 0;
+  return tie_sign({.eye = false, .light = true, .pixel = false}, ignored,
+                  LightSide{a, b, c, Light(1, 0, 0, 0)}) == 0;
 }
 
 }  // namespace gnomon

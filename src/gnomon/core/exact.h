@@ -99,8 +99,8 @@ int tie_sign(const Depends& on, ExactStats& stats, const F& f) {
   return 0;
 }
 
-// Sign of |a; b; c; light|: on which side of the plane through a, b, c the light is. Never 0 for a
-// triangle with area.
+// Sign of |a; b; c; light|: on which side of the plane through a, b, c the light is. Of a triangle
+// without area -1: its prism is empty, so that any sign is right, as long as all ask for the same.
 int light_side(const Vec3& a, const Vec3& b, const Vec3& c, const Light& light, ExactStats& stats);
 
 // True if the triangle has no area (exactly).

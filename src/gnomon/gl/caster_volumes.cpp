@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <glm/geometric.hpp>
 
@@ -14,12 +15,29 @@ namespace gnomon::gl {
 namespace {
 
 constexpr int kFewLayers = 63;  // fits every way of counting
-constexpr int kCoarsestLayerCells = 32, kFinestLayerCells = 1024;
+// Grids of layers, the cheapest first. A sun's bound holds for suns whose rays it moves by so many
+// cells, about: with 32 cells 3.6 degrees about this one, a quarter of an hour and more.
+struct LayerGrid {
+  int cells;
+  double spread;
+};
+constexpr LayerGrid kLayerGrids[] = {{32, 2},    {64, 2},     {128, 1},     {256, 0.5},
+                                     {512, 0.5}, {1024, 0.5}, {1024, 0.25}, {1024, 0}};
+// Light sides are found one by one up to this share of the mesh, else all together, which is so
+// many times faster a triangle.
+constexpr std::size_t kFewSides = 8;
 
 SideForm form_of(Primitives p) {
   return p == Primitives::quads    ? SideForm::triangles
          : p == Primitives::strips ? SideForm::strips
                                    : SideForm::fans;
+}
+
+// No ray crosses more of a part's triangles that cast.
+std::uint32_t layers_of(const Part& part, CastingSides sides) {
+  if (sides == CastingSides::none) return 0;
+  const auto both = part.convex ? 2 : static_cast<std::uint32_t>(part.triangles.size());
+  return sides == CastingSides::one ? both / 2 : both;
 }
 
 struct Builder {
@@ -36,22 +54,16 @@ struct Builder {
     v.layers_of.push_back(layers);
   }
 
-  std::uint32_t count_casting(std::span<const std::uint32_t> triangles, Casting casting) const {
-    std::uint32_t n = 0;
-    for (const std::uint32_t t : triangles) n += casts(casting, v.light_side[t]) ? 1 : 0;
-    return n;
-  }
-
   // What z-pass never draws is not made.
   std::span<const std::uint32_t> caps_of(std::span<const std::uint32_t> triangles,
                                          bool z_fail) const {
     return z_fail || v.all_caps ? triangles : std::span<const std::uint32_t>();
   }
 
-  // Precondition: `silhouette` is theirs.
-  void append_triangles(std::uint32_t p, std::span<const std::uint32_t> triangles, bool z_fail,
+  void append_triangles(std::uint32_t p, std::span<const SilhouetteEdge> edges,
+                        std::span<const std::uint32_t> triangles, bool z_fail,
                         std::uint32_t layers) {
-    append_volume(v.lists, m.mesh, silhouette, caps_of(triangles, z_fail), v.light_side, one_point,
+    append_volume(v.lists, m.mesh, edges, caps_of(triangles, z_fail), v.light_side, one_point,
                   v.plan[p].casting, form, p, beyond_receivers, scratch, v.grazed_edges);
     note(false, layers);
   }
@@ -69,20 +81,12 @@ struct Builder {
       }
       return;
     }
-    const std::uint32_t layers = part.convex && plan.casting != Casting::all_triangles
-                                     ? 1
-                                     : count_casting(part.triangles, plan.casting);
+    const std::uint32_t layers = layers_of(part, v.casting[p]);
     if (v.most_layers == 0 || layers <= v.most_layers) {
-      const EdgesOfParts& edges = m.part_edges;
-      silhouette.clear();
-      find_part_silhouette(
-          silhouette, m.edges,
-          std::span(edges.edge).subspan(edges.first[p], edges.first[p + 1] - edges.first[p]),
-          m.parts.part_of, p, v.light_side, plan.casting);
-      append_triangles(p, part.triangles, plan.z_fail, layers);
-      return;
+      append_triangles(p, v.silhouettes.of(p), part.triangles, plan.z_fail, layers);
+    } else {
+      append_chunks(p, part.triangles, plan.z_fail);
     }
-    append_chunks(p, part.triangles, plan.z_fail);
   }
 
   // Casting triangles of a part in volumes of at most most_layers of them.
@@ -92,7 +96,7 @@ struct Builder {
       if (chunk.empty()) return;
       silhouette.clear();
       find_silhouette_of_few(silhouette, m.mesh, chunk, v.light_side, v.plan[p].casting);
-      append_triangles(p, chunk, z_fail, static_cast<std::uint32_t>(chunk.size()));
+      append_triangles(p, silhouette, chunk, z_fail, static_cast<std::uint32_t>(chunk.size()));
       chunk.clear();
     };
     for (const std::uint32_t t : triangles) {
@@ -170,65 +174,136 @@ double sine_to_light(const TriMesh& mesh, std::uint32_t triangle, const Light& l
   return below > 0 ? std::fabs(glm::dot(n, l - a * light.w)) / below : 0;
 }
 
+// What the light grazes: of casting triangles by the tree, if there is one.
+void find_grazed(CasterVolumes& v, GpuMesh& m, const Light& light) {
+  v.grazed = false;
+  v.grazed_edges.clear();
+  v.nearly_grazed.clear();
+  const double farthest = farthest_squared(m, light);
+  ExactStats exact;
+  const auto look = [&](std::uint32_t t) {
+    const double sine = sine_to_light(m.mesh, t, light, farthest);
+    const Triangle& corners = m.mesh.triangles[t];
+    if (sine <= kNearlyGrazing && m.casts[t] != 0 && m.receives[t] != 0) {
+      const std::vector<Vec3>& p = m.mesh.positions;
+      const int side = light_side(p[corners[0]], p[corners[1]], p[corners[2]], light, exact);
+      v.nearly_grazed.push_back({t, static_cast<std::int8_t>(side)});
+    }
+    if (sine > kGrazing) return;
+    v.grazed |= m.receives[t] != 0;
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t a = corners[k], b = corners[(k + 1) % 3];
+      v.grazed_edges.push_back({std::min(a, b), std::max(a, b)});
+    }
+  };
+  SilhouetteFinder& finder = m.silhouettes;
+  if (finder.edge_tree && finder.current) {
+    std::vector<std::uint32_t> triangles;
+    find_near_planes(triangles, *finder.edge_tree, light,
+                     kNearlyGrazing * std::sqrt(farthest) * (1 + 0x1p-40), finder.scratch);
+    for (const std::uint32_t t : triangles) look(t);
+    for (const std::uint32_t t : m.only_receive) look(t);
+  } else {
+    for (std::uint32_t t = 0; t < m.mesh.triangles.size(); ++t) look(t);
+  }
+  std::sort(v.grazed_edges.begin(), v.grazed_edges.end());
+}
+
+// Finds light sides of the parts for which `needed(p)`, where they are not known yet.
+template <class Needed>
+void require_sides(CasterVolumes& v, const GpuMesh& m, const Needed& needed) {
+  std::vector<std::uint32_t> parts;
+  std::size_t triangles = 0;
+  for (std::uint32_t p = 0; p < v.plan.size(); ++p) {
+    if (v.sides_known[p] != 0 || !needed(p)) continue;
+    parts.push_back(p);
+    triangles += m.parts.parts[p].triangles.size();
+  }
+  if (parts.empty()) return;
+  if (triangles * kFewSides > m.mesh.triangles.size()) {
+    v.light_side = light_sides(m.mesh, v.light);
+    v.sides_known.assign(v.sides_known.size(), 1);
+    return;
+  }
+  v.light_side.resize(m.mesh.triangles.size());
+  ExactStats exact;
+  for (const std::uint32_t p : parts) {
+    for (const std::uint32_t t : m.parts.parts[p].triangles) {
+      const Triangle& c = m.mesh.triangles[t];
+      v.light_side[t] = static_cast<std::int8_t>(light_side(
+          m.mesh.positions[c[0]], m.mesh.positions[c[1]], m.mesh.positions[c[2]], v.light, exact));
+    }
+    v.sides_known[p] = 1;
+  }
+}
+
+// The sum of parts' layers holds for sure; where it is too much for a stencil, grids say better,
+// finer ones best. The search begins at the grid that sufficed last.
+void bound_layers(LayersKept& kept, const CasterVolumes& v, const GpuMesh& m) {
+  const LayerItems items = layer_items(m.parts, v.casting);
+  kept.light = v.light;
+  kept.layers = std::numeric_limits<int>::max();
+  for (;; ++kept.grid) {
+    const LayerGrid& grid = kLayerGrids[kept.grid];
+    kept.spread = v.light.w == 0 ? grid.spread / grid.cells : 0;
+    kept.layers = std::min(
+        kept.layers, layer_bound(m.mesh, items, v.light, grid.cells, kept.spread, &v.silhouettes));
+    if (kept.layers <= kWrapLayers || kept.grid + 1 == std::size(kLayerGrids)) break;
+  }
+  // With room to spare, a coarser one is tried the next time.
+  if (kept.layers <= kWrapLayers / 2 && kept.grid > 0) --kept.grid;
+}
+
+void update_regions(CasterVolumes& v, const GpuMesh& m) {
+  v.regions = {};
+  const auto by_region = [&](std::uint32_t p) {
+    return v.plan[p].by_region && !v.plan[p].left_out;
+  };
+  std::vector<std::uint8_t> in_region;
+  for (std::uint32_t p = 0; p < v.plan.size(); ++p) {
+    if (!by_region(p)) continue;
+    if (in_region.empty()) {
+      require_sides(v, m, by_region);
+      in_region.assign(m.mesh.triangles.size(), 0);
+    }
+    for (const std::uint32_t t : m.parts.parts[p].triangles)
+      in_region[t] = casts(v.plan[p].casting, v.light_side[t]) ? 1 : 0;
+  }
+  if (!in_region.empty()) v.regions = find_lit_regions(m.edges, v.light_side, in_region);
+}
+
 }  // namespace
 
-bool update_sides(CasterVolumes& v, const GpuMesh& m, std::uint64_t mesh_version,
-                  const Light& light, const std::vector<PartPlan>& plan) {
-  const bool same_light = v.array && v.light == light && v.mesh_version == mesh_version;
+bool update_silhouettes(CasterVolumes& v, GpuMesh& m, std::uint64_t mesh_version,
+                        const Light& light, const std::vector<PartPlan>& plan, SilhouetteBy by) {
+  const bool same_mesh = v.array && v.mesh_version == mesh_version;
+  const bool same_light = same_mesh && v.light == light;
   if (same_light && v.plan == plan) return false;
-  if (!same_light) {
-    v.light_side = light_sides(m.mesh, light);
-    v.grazed = false;
-    v.grazed_edges.clear();
-    v.nearly_grazed.clear();
-    const double farthest = farthest_squared(m, light);
-    for (std::uint32_t t = 0; t < m.mesh.triangles.size(); ++t) {
-      const double sine = sine_to_light(m.mesh, t, light, farthest);
-      if (sine <= kNearlyGrazing && m.casts[t] != 0 && m.receives[t] != 0)
-        v.nearly_grazed.push_back(t);
-      if (sine > kGrazing) continue;
-      v.grazed |= m.receives[t] != 0;
-      const Triangle& corners = m.mesh.triangles[t];
-      for (int k = 0; k < 3; ++k) {
-        const std::uint32_t a = corners[k], b = corners[(k + 1) % 3];
-        v.grazed_edges.push_back({std::min(a, b), std::max(a, b)});
-      }
-    }
-    std::sort(v.grazed_edges.begin(), v.grazed_edges.end());
-  }
   v.light = light;
   v.mesh_version = mesh_version;
   v.plan = plan;
-  std::vector<std::uint8_t> casting(m.mesh.triangles.size(), 0);
-  std::vector<std::uint8_t> in_region(m.mesh.triangles.size(), 0);
-  bool regions = false;
-  for (std::size_t p = 0; p < plan.size(); ++p) {
-    regions |= plan[p].by_region;
-    for (const std::uint32_t t : m.parts.parts[p].triangles) {
-      casting[t] = !plan[p].left_out && casts(plan[p].casting, v.light_side[t]) ? 1 : 0;
-      if (plan[p].by_region) in_region[t] = casting[t];
-    }
+  if (!same_light) {
+    find_silhouette(v.whole, v.light_side, m.silhouettes, by, m.mesh, m.edges, light);
+    v.sides_known.assign(plan.size(), v.light_side.empty() ? 0 : 1);
+    find_grazed(v, m, light);
   }
-  v.regions = regions ? find_lit_regions(m.edges, v.light_side, in_region) : LitRegions{};
-  if (same_light && v.casting == casting) return true;
+  std::vector<CastingSides> casting;
+  for (const PartPlan& p : plan) {
+    casting.push_back(p.left_out                            ? CastingSides::none
+                      : p.casting == Casting::all_triangles ? CastingSides::both
+                                                            : CastingSides::one);
+  }
+  if (!same_mesh || v.casting != casting) v.kept = {};
+  if (!same_light || v.casting != casting)
+    v.silhouettes = split_by_part(v.whole, m.part_edges, casting);
   v.casting = std::move(casting);
+  update_regions(v, m);
   v.layers = 0;
-  for (std::size_t p = 0; p < plan.size(); ++p) {
-    const Part& part = m.parts.parts[p];
-    if (plan[p].left_out) continue;
-    if (part.convex && plan[p].casting != Casting::all_triangles) {
-      ++v.layers;
-    } else {
-      for (const std::uint32_t t : part.triangles) v.layers += v.casting[t];
-    }
-  }
-  // The sum holds for sure; where it is too much for a stencil, grids say better, finer ones best.
-  const LayerItems items =
-      v.layers > kFewLayers ? layer_items(m.parts, v.light_side, v.casting) : LayerItems{};
-  for (int cells = kCoarsestLayerCells; v.layers > kFewLayers && cells <= kFinestLayerCells;
-       cells *= 2) {
-    v.layers = std::min(v.layers, layer_bound(m.mesh, items, light, cells));
-    if (v.layers <= kWrapLayers) break;
+  for (std::size_t p = 0; p < plan.size(); ++p)
+    v.layers += static_cast<int>(layers_of(m.parts.parts[p], v.casting[p]));
+  if (v.layers > kFewLayers) {
+    if (!near(v.kept.light, light, v.kept.spread)) bound_layers(v.kept, v, m);
+    v.layers = std::min(v.layers, v.kept.layers);
   }
   return true;
 }
@@ -258,6 +333,12 @@ bool update_lists(CasterVolumes& v, const GpuMesh& m, const Method& method, cons
   v.receivers = receivers;
   v.all_caps = all_caps;
 
+  require_sides(v, m, [&](std::uint32_t p) {
+    const PartPlan& plan = v.plan[p];
+    return !plan.left_out &&
+           (plan.z_fail || all_caps || plan.by_polygon || plan.by_region ||
+            (most_layers != 0 && layers_of(m.parts.parts[p], v.casting[p]) > most_layers));
+  });
   v.lists = {};
   v.polygon.clear();
   v.layers_of.clear();

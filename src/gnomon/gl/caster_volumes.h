@@ -15,6 +15,7 @@
 #include <gnomon/gl/method.h>
 #include <gnomon/volume/lit_regions.h>
 #include <gnomon/volume/near_clip.h>
+#include <gnomon/volume/part_silhouettes.h>
 #include <gnomon/volume/volume_lists.h>
 
 namespace gnomon::gl {
@@ -40,6 +41,20 @@ struct PartPlan {
   bool operator==(const PartPlan&) const = default;
 };
 
+// A receiver that casts, whose plane nearly holds the light.
+struct NearlyGrazed {
+  std::uint32_t triangle = 0;
+  std::int8_t light_side = 0;
+};
+
+// A bound on the layers (layers.h), kept while the light stays near.
+struct LayersKept {
+  Light light{0, 0, 0, 0};
+  double spread = 0;
+  int layers = 0;
+  std::size_t grid = 0;  // to begin with the next time
+};
+
 struct CasterVolumes {
   // What they were made from.
   Light light{0, 0, 0, 0};  // in the mesh's coordinates
@@ -54,13 +69,19 @@ struct CasterVolumes {
   bool one_point = false;  // behind all vertices: a directional light's at infinity
   std::vector<std::uint8_t> region_z_fail;  // per region
 
-  std::vector<std::int8_t> light_side;  // per triangle
+  Silhouette whole;                   // of all parts together, all of whose triangles cast
+  std::vector<CastingSides> casting;  // per part
+  PartSilhouettes silhouettes;
+  // Per triangle; found where it is needed, by whole parts: caps, regions, chunks, polygons. Where
+  // only sides are drawn, the silhouette is enough.
+  std::vector<std::int8_t> light_side;
+  std::vector<std::uint8_t> sides_known;  // per part
   bool grazed = false;       // the plane of some receiving triangle nearly holds the light
   GrazedEdges grazed_edges;  // of all triangles that the light grazes
-  std::vector<std::uint32_t> nearly_grazed;  // triangles that cast and receive
-  std::vector<std::uint8_t> casting;         // per triangle: it counts
-  LitRegions regions;                        // of parts by region
-  int layers = 0;                            // no ray from the light crosses more casting triangles
+  std::vector<NearlyGrazed> nearly_grazed;
+  LitRegions regions;  // of parts by region
+  LayersKept kept;
+  int layers = 0;  // no ray from the light crosses more casting triangles
 
   VolumeLists lists;                                   // z-fail volumes first
   std::size_t z_fail_volumes = 0;                      // of lists.volumes, the first ones
@@ -73,9 +94,10 @@ struct CasterVolumes {
   VertexArray array;
 };
 
-// Brings light sides, casting triangles, regions and layers up to date. True if they were not.
-bool update_sides(CasterVolumes& volumes, const GpuMesh& mesh, std::uint64_t mesh_version,
-                  const Light& light, const std::vector<PartPlan>& plan);
+// Brings silhouettes, grazed triangles, regions and layers up to date, in time that follows the
+// silhouette once mesh.silhouettes has a tree. True if they were not.
+bool update_silhouettes(CasterVolumes& volumes, GpuMesh& mesh, std::uint64_t mesh_version,
+                        const Light& light, const std::vector<PartPlan>& plan, SilhouetteBy by);
 
 // Brings lists and buffers up to date. `near`: in the mesh's coordinates, for parts by region.
 // `project`: a vertex (x, y, z, 1) to the point behind it. `receivers`: a plane with the receivers

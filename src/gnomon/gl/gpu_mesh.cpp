@@ -147,7 +147,7 @@ void find_boxes(GpuMesh& m) {
 void find_parts(GpuMesh& m) {
   find_boxes(m);
   m.parts = split_into_parts(m.mesh, m.edges, m.casts);
-  m.part_edges = edges_of_parts(m.edges, m.parts.part_of, m.parts.parts.size());
+  m.part_edges = parts_of_edges(m.edges, m.parts, m.mesh.positions.size());
   m.part_seen.assign(m.parts.parts.size(), 1);
   for (std::size_t p = 0; p < m.parts.parts.size(); ++p) {
     for (const std::uint32_t t : m.parts.parts[p].triangles) m.part_seen[p] &= m.receives[t];
@@ -204,6 +204,7 @@ GpuMesh make_gpu_mesh(const TriMesh& mesh, std::vector<std::uint8_t> casts,
 void move_vertices(GpuMesh& m, std::span<const Vec3> positions) {
   for (std::size_t i = 0; i < m.mesh.positions.size(); ++i)
     m.mesh.positions[i] = rounded(positions[i]);
+  vertices_moved(m.silhouettes);
   find_parts(m);
   sort_drawn(m);
   upload_vertices(m);

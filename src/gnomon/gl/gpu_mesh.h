@@ -10,6 +10,8 @@
 #include <gnomon/mesh/edge_table.h>
 #include <gnomon/mesh/tri_mesh.h>
 #include <gnomon/scene/appearance.h>
+#include <gnomon/silhouette/silhouette_finder.h>
+#include <gnomon/volume/part_silhouettes.h>
 #include <gnomon/volume/parts.h>
 #include <gnomon/volume/volume_lists.h>
 
@@ -36,7 +38,8 @@ struct GpuMesh {
   std::vector<std::uint8_t> receives;  // per triangle
   EdgeTable edges;                     // of the casting triangles
   Parts parts;                         // of the casting triangles
-  EdgesOfParts part_edges;
+  PartsOfEdges part_edges;
+  SilhouetteFinder silhouettes;         // of all casting triangles together
   std::vector<std::uint8_t> part_seen;  // per part: all its triangles receive, so are drawn
 
   Buffer doubled;             // vec4 per index of VolumeLists

@@ -59,6 +59,19 @@ std::string_view name_of(Reach v) {
 std::string_view name_of(Primitives v) {
   return v == Primitives::quads ? "quads" : v == Primitives::strips ? "strips" : "fans";
 }
+std::string_view name_of(SilhouetteBy v) {
+  switch (v) {
+    case SilhouetteBy::automatic:
+      return "auto";
+    case SilhouetteBy::brute_force:
+      return "brute-force";
+    case SilhouetteBy::dual_space:
+      return "dual-space";
+    case SilhouetteBy::edge_tree:
+      return "edge-tree";
+  }
+  return "";
+}
 std::string_view name_of(Shadows v) {
   switch (v) {
     case Shadows::automatic:

@@ -9,6 +9,7 @@
 
 #include <gnomon/core/result.h>
 #include <gnomon/gl/capabilities.h>
+#include <gnomon/silhouette/silhouette_finder.h>
 
 namespace gnomon::gl {
 
@@ -52,6 +53,7 @@ struct Method {
   Extrusion extrusion = Extrusion::shader;
   Reach reach = Reach::automatic;
   Primitives primitives = Primitives::quads;
+  SilhouetteBy silhouettes = SilhouetteBy::automatic;  // all find the same edges
   Shadows shadows = Shadows::automatic;
   double mask_scale = 1;  // size of the mask over that of the picture, 0 < scale <= 1
   int samples = 1;        // a pixel
@@ -96,6 +98,7 @@ std::string_view name_of(FarPlane);
 std::string_view name_of(Extrusion);
 std::string_view name_of(Reach);
 std::string_view name_of(Primitives);
+std::string_view name_of(SilhouetteBy);
 std::string_view name_of(Shadows);
 
 // "stencil, zfail, two-sided, wrap, caster, ..." for messages and tables.

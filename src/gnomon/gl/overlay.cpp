@@ -25,9 +25,17 @@ Pass line_pass(GLenum depth_func) {
   return p;
 }
 
+// The picture's mask has made these volumes and counted them, unless there was none.
+Prepared prepare_to_look(const Frame& frame, const LightPlan& plan) {
+  const FrameStats before = *frame.stats;
+  Prepared out = prepare(frame, plan);
+  if (before.rebuilt + before.kept > 0) frame.stats->kept = before.kept;
+  return out;
+}
+
 void draw_volume_faces(const Frame& frame, const LightPlan& plan, const Pass& pass,
                        const glm::vec4& colour) {
-  Prepared prepared = prepare(frame, plan);
+  Prepared prepared = prepare_to_look(frame, plan);
   for (InstanceVolumes& v : prepared.all) v.rectangles.clear();  // they are looked at as a whole
   apply(pass, frame);
   for (const std::vector<Batch>& batches : batches_of(frame, prepared)) {
@@ -54,7 +62,7 @@ void draw_volume_faces(const Frame& frame, const LightPlan& plan, const Pass& pa
 
 void draw_silhouettes(const Frame& frame, const LightPlan& plan, const Pass& pass,
                       const glm::vec4& colour) {
-  const Prepared prepared = prepare(frame, plan);
+  const Prepared prepared = prepare_to_look(frame, plan);
   apply(pass, frame);
   const std::optional<glm::dmat4>& inside = frame.camera->keep_inside;
   const GLuint program =
@@ -62,16 +70,9 @@ void draw_silhouettes(const Frame& frame, const LightPlan& plan, const Pass& pas
   glUseProgram(program);
   set(program, "u_colour", colour);
   for (const InstanceVolumes& v : prepared.all) {
-    Silhouette edges;
-    for (std::uint32_t p = 0; p < v.plan->parts.size(); ++p) {
-      const EdgesOfParts& of = v.mesh->part_edges;
-      find_part_silhouette(edges, v.mesh->edges,
-                           std::span(of.edge).subspan(of.first[p], of.first[p + 1] - of.first[p]),
-                           v.mesh->parts.part_of, p, v.volumes->light_side,
-                           v.plan->parts[p].casting);
-    }
     std::vector<std::uint32_t> indices;
-    for (const SilhouetteEdge& e : edges) indices.insert(indices.end(), {2 * e.a, 2 * e.b});
+    for (const SilhouetteEdge& e : v.volumes->silhouettes.edges)
+      indices.insert(indices.end(), {2 * e.a, 2 * e.b});
     set(program, "u_clip", frame.clip_of(*v.instance));
     if (inside) set(program, "u_inside", glm::mat4(*inside * v.instance->to_scene));
     draw_indexed(GL_LINES, v.mesh->doubled, indices);

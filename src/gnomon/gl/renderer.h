@@ -69,7 +69,9 @@ struct FrameStats {
   int polygon_volumes = 0;    // of these, volumes of single polygons
   int scissored_volumes = 0;  // volumes drawn within a rectangle of their own
   int culled_volumes = 0;     // volumes that shade nothing in the picture and were not drawn
-  int rebuilt = 0;            // casters' volumes made anew; the others were kept
+  // The cache of volumes, by instance and light: what nothing has changed for is kept.
+  int rebuilt = 0, kept = 0;
+  double volumes_ms = 0;   // until silhouettes were found, volumes made and handed to OpenGL
   int moved_lights = 0;    // lamps that touched a caster: shadows are those of lamps beside them,
                            // 2^-13 of the largest coordinate away (docs/renderer-limits.md)
   int stencil_groups = 0;  // groups of casters counted apart so that no count overflows
@@ -95,8 +97,8 @@ class Renderer {
   // `look`: materials, pictures, normals; none: white.
   MeshId add_mesh(const TriMesh& mesh, std::vector<std::uint8_t> casts = {},
                   std::vector<std::uint8_t> receives = {}, const Appearance* look = nullptr);
-  // New positions for the same triangles (a skinned or morphed mesh). Precondition: as many as
-  // before; equal ones stay equal.
+  // New positions for the same triangles (a skinned or morphed mesh), some of which may lose their
+  // area. Precondition: as many as before; equal ones stay equal.
   void update_mesh(MeshId mesh, std::span<const Vec3> positions);
   // The same from a buffer of the caller's: float x, y, z at `offset` + i * `stride` bytes. They
   // are read back, since silhouettes are found on the CPU. Errors: the buffer is shorter than that,

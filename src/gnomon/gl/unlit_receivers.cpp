@@ -31,7 +31,7 @@ void count_unlit_receivers(const Frame& frame, const LightPlan& plan, const Prep
     }
     if (!plan.instances[i].parts.empty()) {
       const CasterVolumes& v = instance.volumes[plan.number];
-      for (const std::uint32_t t : v.nearly_grazed) add(t, v.light_side[t]);
+      for (const NearlyGrazed& t : v.nearly_grazed) add(t.triangle, t.light_side);
     }
     for (const bool positive : {false, true}) {
       const std::vector<std::uint32_t>& drawn = indices[positive ? 1 : 0];

@@ -1,5 +1,6 @@
 #include <gnomon/gl/volume_batches.h>
 
+#include <chrono>
 #include <utility>
 
 #include <glm/common.hpp>
@@ -57,6 +58,8 @@ void update_all_lists(const Frame& frame, const LightPlan& plan, Prepared& prepa
                      v.plan->receivers, all_caps, prepared.grouped ? kGroupLayers : 0,
                      prepared.changed[i])) {
       ++frame.stats->rebuilt;
+    } else if (!prepared.grouped) {  // which makes the same volumes a second time
+      ++frame.stats->kept;
     }
   }
   if (plan.method.count == Count::near_cap) make_near_caps(frame, prepared.all);
@@ -112,15 +115,17 @@ void append_batches(const Frame& frame, std::vector<Batch>& to, const InstanceVo
 }  // namespace
 
 Prepared prepare(const Frame& frame, const LightPlan& plan) {
+  const auto begin = std::chrono::steady_clock::now();
   Prepared out;
   for (std::size_t i = 0; i < plan.instances.size(); ++i) {
     const LightPlan::OfInstance& of = plan.instances[i];
     if (of.parts.empty()) continue;
     InstanceSlot& instance = frame.state->instances[i];
-    const MeshSlot& mesh = frame.state->meshes[instance.mesh];
+    MeshSlot& mesh = frame.state->meshes[instance.mesh];
     if (instance.volumes.size() <= plan.number) instance.volumes.resize(plan.number + 1);
     CasterVolumes& v = instance.volumes[plan.number];
-    out.changed.push_back(update_sides(v, mesh.gpu, mesh.version, of.light, of.parts));
+    out.changed.push_back(
+        update_silhouettes(v, mesh.gpu, mesh.version, of.light, of.parts, plan.method.silhouettes));
     out.layers += v.layers;
     out.all.push_back({&instance, &mesh.gpu, &v, &of, {}});
     out.offset |= v.grazed;
@@ -133,6 +138,8 @@ Prepared prepare(const Frame& frame, const LightPlan& plan) {
     for (InstanceVolumes& v : out.all) find_rectangles(frame, plan, v);
   }
   update_all_lists(frame, plan, out);
+  frame.stats->volumes_ms +=
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
   return out;
 }
 

@@ -61,6 +61,7 @@ DualLight dual_light(const Light& light, const Vec3& centre, double largest_w) {
   for (const double x : out.exact) largest = std::max(largest, std::fabs(x));
   int exponent = 0;
   std::frexp(largest, &exponent);
+  out.factor = std::ldexp(1.0, -exponent);
   for (std::size_t k = 0; k < 4; ++k) {
     out.exact[k] = std::ldexp(out.exact[k], -exponent);
     out.l[k] = static_cast<float>(out.exact[k]);

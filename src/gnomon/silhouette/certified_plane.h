@@ -24,6 +24,7 @@ CertifiedPlane certified_plane(const TriMesh& mesh, std::uint32_t triangle, cons
 // and what rounding in double can change of L'.q for a dual point with |q.xyz| <= kLargestNormal
 // and |q.w| <= largest_w. That of `l` to float comes on top.
 struct DualLight {
+  double factor = 1;              // that number, a power of two
   std::array<double, 4> exact{};  // rounded in double
   std::array<float, 4> l{};
   float slack = 0;

@@ -16,14 +16,21 @@ namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr int kLevel = 32767;  // of 16 bits, from -kLevel to kLevel
 constexpr std::size_t kVector = EdgeTree::kVector;
-// Of a smooth mesh so many edges have just below kMostPlanes planes.
-constexpr std::uint32_t kFullLeaf = 60;
+// Edges of a full leaf. Of a smooth mesh 60 have just below kMostPlanes planes; where edges have
+// more (in towns nearly two each), leaves must hold fewer, or they would be cut in halves and leave
+// nodes with few children.
+constexpr std::uint32_t kFullestLeaf = 60, kLeastFullLeaf = 16, kLeafStep = 4;
+// Leaves looked at to decide how full they can be, of which so many are to hold that many; and what
+// half as many edges lose of planes that they shared.
+constexpr std::size_t kProbes = 256;
+constexpr double kFitting = 0.9, kShared = 0.93;
 // Boxes are widened by this share of their numbers: four products and their sum in float, and the
 // light's and the box's own rounding, are wrong by less (2^-24 each).
 constexpr float kWiden = 0x1p-19F;
 
+// A dual point to sort by, in steps: exactness is of no matter there.
 struct Dual {
-  float q[4];
+  std::array<std::int16_t, 4> q{};
 };
 
 std::uint32_t plane_key(std::uint32_t triangle, bool negated) {
@@ -66,16 +73,30 @@ std::uint32_t append_leaf(EdgeTree& tree, std::span<const std::uint32_t> planes,
   return static_cast<std::uint32_t>(line);
 }
 
+// The largest distance from the centre.
+double size_of(const TriMesh& mesh, const Vec3& centre) {
+  double squared = 0;
+  for (const Vec3& p : mesh.positions)
+    squared = std::max(squared, glm::dot(p - centre, p - centre));
+  return squared > 0 ? std::sqrt(squared) : 1.0;
+}
+
 // Sorts edges into leaves. Points of an edge: both dual points, w in units of the mesh's size.
 class Sorter {
  public:
   Sorter(EdgeTree& tree, const TriMesh& mesh, const EdgeTable& table) : tree_(tree) {
     const double scale = size_of(mesh, tree.centre);
-    duals_.resize(mesh.triangles.size());
-    for (std::uint32_t t = 0; t < duals_.size(); ++t) {
-      const CertifiedPlane p = certified_plane(mesh, t, tree.centre);
-      for (int k = 0; k < 3; ++k) duals_[t].q[k] = static_cast<float>(p.q[std::size_t(k)]);
-      duals_[t].q[3] = static_cast<float>(p.q[3] / scale);
+    std::vector<Dual> duals(mesh.triangles.size());
+    for (std::size_t t = 0; t < duals.size(); ++t) {
+      const Triangle& v = mesh.triangles[t];
+      const Vec3& corner = mesh.positions[v[0]];
+      const Vec3 n = glm::cross(mesh.positions[v[1]] - corner, mesh.positions[v[2]] - corner);
+      const double length = glm::length(n);
+      if (!(length > 0) || !std::isfinite(length)) continue;
+      const Vec3 unit = n / length;
+      const double q[4] = {-unit.x, -unit.y, -unit.z, glm::dot(unit, corner - tree.centre) / scale};
+      for (std::size_t k = 0; k < 4; ++k)
+        duals[t].q[k] = static_cast<std::int16_t>(std::clamp(q[k], -1.0, 1.0) * kLevel);
     }
     for (std::uint32_t e = 0; e < table.vertices.size(); ++e) {
       const std::uint32_t first = table.first[e];
@@ -90,15 +111,32 @@ class Sorter {
            plane_key((swap ? one : two) >> 1, same_way),
            {table.vertices[e][0], table.vertices[e][1] | (backward ? EdgeTree::kBackward : 0)}});
     }
-    order_.resize(edges_.size());
-    for (std::uint32_t e = 0; e < order_.size(); ++e) order_[e] = e;
+    points_.resize(edges_.size());
+    for (std::uint32_t e = 0; e < points_.size(); ++e) {
+      points_[e].edge = e;
+      for (std::size_t side = 0; side < 2; ++side) {
+        const std::uint32_t key = side == 0 ? edges_[e].first : edges_[e].second;
+        for (std::size_t k = 0; k < 4; ++k) {
+          const std::int16_t q = duals[key >> 1].q[k];
+          points_[e].q[4 * side + k] = (key & 1) != 0 ? static_cast<std::int16_t>(-q) : q;
+        }
+      }
+    }
   }
 
   void sort() {
     if (edges_.empty()) return;
     tree_.edges.reserve(edges_.size());
-    tree_.nodes.emplace_back();
-    fill(0, 0, static_cast<std::uint32_t>(order_.size()));
+    try_sort();
+    if (!decided_) decide();
+    if (again_) {
+      tree_.nodes.clear();
+      tree_.edges.clear();
+      tree_.lines.clear();
+      tree_.leaves.clear();
+      tree_.triangle.clear();
+      try_sort();
+    }
   }
 
  private:
@@ -106,45 +144,61 @@ class Sorter {
     std::uint32_t first, second;  // plane keys
     EdgeTree::Edge edge;
   };
+  struct Point {
+    std::array<std::int16_t, 8> q;  // both dual points
+    std::uint32_t edge;
+  };
   struct Range {
     std::uint32_t begin, end;
     std::uint32_t size() const { return end - begin; }
   };
 
-  static double size_of(const TriMesh& mesh, const Vec3& centre) {
-    double squared = 0;
-    for (const Vec3& p : mesh.positions)
-      squared = std::max(squared, glm::dot(p - centre, p - centre));
-    return squared > 0 ? std::sqrt(squared) : 1.0;
+  void try_sort() {
+    again_ = false;
+    tree_.nodes.emplace_back();
+    fill(0, 0, static_cast<std::uint32_t>(points_.size()));
   }
 
-  float coordinate(std::uint32_t edge, int axis) const {
-    const std::uint32_t key = axis < 4 ? edges_[edge].first : edges_[edge].second;
-    const float q = duals_[key >> 1].q[axis & 3];
-    return (key & 1) != 0 ? -q : q;
+  // How full leaves are to be, after the first of them; whether to begin again.
+  void decide() {
+    decided_ = true;
+    if (probes_.empty()) return;
+    const auto at = probes_.begin() + static_cast<std::ptrdiff_t>(
+                                          (1 - kFitting) * static_cast<double>(probes_.size()));
+    std::nth_element(probes_.begin(), at, probes_.end());
+    const std::uint32_t full = std::clamp(static_cast<std::uint32_t>(*at) / kLeafStep * kLeafStep,
+                                          kLeastFullLeaf, kFullestLeaf);
+    again_ = full < full_;
+    full_ = full;
+  }
+
+  // Precondition: fits_leaf() saw the range last.
+  void probe(const Range& r) {
+    if (decided_ || r.size() <= full_ / 2) return;
+    probes_.push_back(kShared * double(EdgeTree::kMostPlanes) * r.size() / double(planes_.size()));
+    if (probes_.size() == kProbes) decide();
   }
 
   // Cuts a range by the axis over which its points are spread widest, `first` of them to one side.
   std::uint32_t split(const Range& r, std::uint32_t first) {
-    float lo[8], hi[8];
-    std::fill(lo, lo + 8, kInfinity);
-    std::fill(hi, hi + 8, -kInfinity);
-    for (std::uint32_t k = r.begin; k < r.end; ++k) {
-      for (int axis = 0; axis < 8; ++axis) {
-        const float x = coordinate(order_[k], axis);
-        lo[axis] = std::min(lo[axis], x);
-        hi[axis] = std::max(hi[axis], x);
+    std::array<std::int16_t, 8> lo, hi;
+    lo.fill(kLevel);
+    hi.fill(-kLevel);
+    const auto begin = points_.begin() + r.begin, end = points_.begin() + r.end;
+    for (auto p = begin; p != end; ++p) {
+      for (std::size_t axis = 0; axis < 8; ++axis) {
+        lo[axis] = std::min(lo[axis], p->q[axis]);
+        hi[axis] = std::max(hi[axis], p->q[axis]);
       }
     }
-    int widest = 0;
-    for (int axis = 1; axis < 8; ++axis) {
+    std::size_t widest = 0;
+    for (std::size_t axis = 1; axis < 8; ++axis) {
       if (hi[axis] - lo[axis] > hi[widest] - lo[widest]) widest = axis;
     }
-    keyed_.resize(r.size());
-    for (std::uint32_t k = 0; k < r.size(); ++k)
-      keyed_[k] = {coordinate(order_[r.begin + k], widest), order_[r.begin + k]};
-    std::nth_element(keyed_.begin(), keyed_.begin() + first, keyed_.end());
-    for (std::uint32_t k = 0; k < r.size(); ++k) order_[r.begin + k] = keyed_[k].second;
+    // Of equal ones the first edges of the table.
+    std::nth_element(begin, begin + first, end, [widest](const Point& a, const Point& b) {
+      return a.q[widest] != b.q[widest] ? a.q[widest] < b.q[widest] : a.edge < b.edge;
+    });
     return r.begin + first;
   }
 
@@ -152,8 +206,8 @@ class Sorter {
     if (r.size() > EdgeTree::kMostEdges) return false;
     planes_.clear();
     for (std::uint32_t k = r.begin; k < r.end; ++k) {
-      planes_.push_back(edges_[order_[k]].first);
-      planes_.push_back(edges_[order_[k]].second);
+      planes_.push_back(edges_[points_[k].edge].first);
+      planes_.push_back(edges_[points_[k].edge].second);
     }
     std::sort(planes_.begin(), planes_.end());
     planes_.erase(std::unique(planes_.begin(), planes_.end()), planes_.end());
@@ -170,7 +224,7 @@ class Sorter {
                                        planes_.begin());
     };
     for (std::uint32_t k = 0; k < r.size(); ++k) {
-      const Item& item = edges_[order_[r.begin + k]];
+      const Item& item = edges_[points_[r.begin + k].edge];
       tree_.edges.push_back(item.edge);
       first[k] = index(item.first);
       first[whole_vectors(r.size()) + k] = index(item.second);
@@ -179,12 +233,12 @@ class Sorter {
   }
 
   // The children of a node: its range cut in halves, and these again, but at whole multiples of
-  // what a full child holds, so that leaves and nodes are full. Where the planes of kFullLeaf edges
-  // are too many for a leaf, the children hold fewer. Their edges come in the order of the ranges.
+  // what a full child holds, so that leaves and nodes are full. Where the planes of full_ edges are
+  // too many for a leaf, the children hold fewer. Their edges come in the order of the ranges.
   void fill(std::uint32_t node, std::uint32_t begin, std::uint32_t end) {
-    std::uint32_t full = kFullLeaf;
+    std::uint32_t full = full_;
     while (std::uint64_t(full) * EdgeTree::kChildren < end - begin) full *= EdgeTree::kChildren;
-    if (end - begin <= kFullLeaf) full = std::max<std::uint32_t>(1, (end - begin + 1) / 2);
+    if (end - begin <= full_) full = std::max<std::uint32_t>(1, (end - begin + 1) / 2);
     std::vector<Range> ranges;
     cut({begin, end}, full, ranges);
     std::array<std::uint32_t, EdgeTree::kChildren> child{};
@@ -192,6 +246,8 @@ class Sorter {
     // Inner children first, one after the other; then what is below them, in the order of edges.
     for (std::size_t k = 0; k < ranges.size(); ++k) {
       is_leaf[k] = ranges[k].size() == 1 || fits_leaf(ranges[k]);
+      if (full == full_) probe(ranges[k]);
+      if (again_) return;
       if (is_leaf[k]) continue;
       child[k] = static_cast<std::uint32_t>(tree_.nodes.size());
       tree_.nodes.emplace_back();
@@ -203,6 +259,7 @@ class Sorter {
         child[k] = add_leaf(ranges[k]);
       } else {
         fill(child[k], ranges[k].begin, ranges[k].end);
+        if (again_) return;
       }
     }
     EdgeTree::Node& n = tree_.nodes[node];
@@ -222,11 +279,12 @@ class Sorter {
   }
 
   EdgeTree& tree_;
-  std::vector<Dual> duals_;
   std::vector<Item> edges_;
-  std::vector<std::uint32_t> order_;
-  std::vector<std::pair<float, std::uint32_t>> keyed_;
+  std::vector<Point> points_;          // in the tree's order, when sorted
   std::vector<std::uint32_t> planes_;  // of the range that fits_leaf() saw last
+  std::uint32_t full_ = kFullestLeaf;
+  std::vector<double> probes_;  // edges that would have filled the leaves seen so far
+  bool decided_ = false, again_ = false;
 };
 
 // Triangles of irregular edges, in blocks of their own.

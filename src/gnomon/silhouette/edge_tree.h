@@ -73,7 +73,8 @@ static_assert(sizeof(EdgeTree::Leaf) == 64 - 4);
 EdgeTree build_edge_tree(const TriMesh& mesh, const EdgeTable& edges);
 
 // After vertices have moved: the same triangles, the same tree, new planes. It stays right however
-// they moved, and fast as long as neighbours stay neighbours.
+// they moved, triangles without area included, and fast as long as neighbours stay neighbours.
+// Linear in the mesh: takes as long as about a dozen silhouettes by brute force.
 void refresh_planes(EdgeTree& tree, const TriMesh& mesh);
 
 // What one extraction did.
@@ -100,5 +101,11 @@ void find_silhouette(Silhouette& out, const EdgeTree& tree, const TriMesh& mesh,
 void find_silhouette_linear(Silhouette& out, const EdgeTree& tree, const TriMesh& mesh,
                             const Light& light, ExtractionScratch& scratch,
                             ExtractionStats* stats = nullptr);
+
+// The triangles whose plane the light is no farther from than `distance`, and perhaps some more;
+// each once, ascending. Metres; of a directional light: |n.L|, n the plane's unit normal. Only
+// triangles with an edge in the tree. `out` is replaced.
+void find_near_planes(std::vector<std::uint32_t>& out, const EdgeTree& tree, const Light& light,
+                      double distance, ExtractionScratch& scratch);
 
 }  // namespace gnomon

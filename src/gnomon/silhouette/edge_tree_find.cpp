@@ -1,6 +1,7 @@
 // Extraction from an EdgeTree. Signs come from floats where their error is too small to matter, and
 // from the exact predicate elsewhere: the answer is that of light_sides(), for every instruction
 // set.
+#include <algorithm>
 #include <bit>
 #include <cstring>
 
@@ -198,8 +199,19 @@ std::size_t HitsOf(const EdgeTree& tree, const LeafView& leaf, Extraction& x, st
   return n;
 }
 
+// Into the second-level cache: the first has no room for as many lines on their way as it takes to
+// wait for memory only once.
+void PrefetchFar(const void* p) {
+#if defined(__GNUC__)
+  __builtin_prefetch(p, 0, 2);
+#else
+  hwy::Prefetch(static_cast<const char*>(p));
+#endif
+}
+
 void PrefetchLeaf(const EdgeTree& tree, std::uint32_t line) {
-  for (std::size_t k = 0; k < 9; ++k) hwy::Prefetch(tree.lines.data() + line + k);
+  constexpr std::size_t kLines = 11;  // of the largest
+  for (std::size_t k = 0; k < kLines; ++k) PrefetchFar(tree.lines.data() + line + k);
 }
 
 // Leaves that may hold an edge of the silhouette; those of boxes on two sides of the light are
@@ -231,7 +243,7 @@ void Descend(const EdgeTree& tree, Extraction& x) {
       } else {
         nodes.push_back(child);
         const auto* from = reinterpret_cast<const std::uint8_t*>(&tree.nodes[child]);
-        for (std::size_t i = 0; i < sizeof(EdgeTree::Node); i += 64) hwy::Prefetch(from + i);
+        for (std::size_t i = 0; i < sizeof(EdgeTree::Node); i += 64) PrefetchFar(from + i);
       }
     }
   }
@@ -240,7 +252,7 @@ void Descend(const EdgeTree& tree, Extraction& x) {
 // Finds the edges first, then fetches their vertices: each on its way from memory long before it is
 // needed.
 void Leaves(const EdgeTree& tree, const std::vector<std::uint32_t>& leaves, Extraction& x) {
-  constexpr std::size_t kLeavesAhead = 4;
+  constexpr std::size_t kLeavesAhead = 16;
   std::vector<std::uint32_t>& hits = x.scratch->hits;
   std::size_t n = 0;
   for (std::size_t k = 0; k < leaves.size(); ++k) {
@@ -248,7 +260,7 @@ void Leaves(const EdgeTree& tree, const std::vector<std::uint32_t>& leaves, Extr
     if (hits.size() < n + 2 * EdgeTree::kMostEdges) hits.resize(2 * n + 4096);
     const std::size_t found = HitsOf(tree, view_leaf(tree, leaves[k]), x, hits.data() + n);
     for (std::size_t i = n; i < n + found; ++i)
-      hwy::Prefetch(tree.edges.data() + (hits[i] & ~kFirstPositive));
+      PrefetchFar(tree.edges.data() + (hits[i] & ~kFirstPositive));
     n += found;
   }
   Silhouette& out = *x.out;
@@ -271,6 +283,36 @@ void Extract(const EdgeTree& tree, bool linear, Extraction& x) {
   }
 }
 
+// Triangles on whose plane the light lies within the light's slack: what is left undecided.
+void NearPlanes(const EdgeTree& tree, const DualLight& light, ExtractionScratch& scratch,
+                std::vector<std::uint32_t>& out) {
+  const auto add = [&](std::uint32_t line) {
+    const LeafView leaf = view_leaf(tree, line);
+    for (std::uint64_t left = SignsOfLeaf(leaf, light).undecided; left != 0; left &= left - 1) {
+      out.push_back(
+          tree.triangle[leaf.head.first_triangle + std::uint32_t(std::countr_zero(left))] >> 1);
+    }
+  };
+  std::vector<std::uint32_t>& nodes = scratch.nodes;
+  nodes.clear();
+  if (!tree.nodes.empty()) nodes.push_back(0);
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    const EdgeTree::Node& n = tree.nodes[nodes[k]];
+    const NodeSigns s = SignsOfNode(n, light);
+    const std::uint32_t decided = s.positive | s.negative;
+    std::uint32_t closer = ((1u << n.children) - 1) & ~(decided & (decided >> 8));
+    for (; closer != 0; closer &= closer - 1) {
+      const std::uint32_t child = n.child[static_cast<std::size_t>(std::countr_zero(closer))];
+      if ((child & EdgeTree::kLeaf) != 0) {
+        add(child & ~EdgeTree::kLeaf);
+      } else {
+        nodes.push_back(child);
+      }
+    }
+  }
+  for (const std::uint32_t line : tree.irregular_leaves) add(line);
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace gnomon
 HWY_AFTER_NAMESPACE();
@@ -280,6 +322,7 @@ namespace gnomon {
 namespace {
 
 HWY_EXPORT(Extract);
+HWY_EXPORT(NearPlanes);
 
 void find(Silhouette& out, const EdgeTree& tree, const TriMesh& mesh, const Light& light,
           ExtractionScratch& scratch, ExtractionStats* stats, bool linear) {
@@ -322,6 +365,17 @@ void find_silhouette_linear(Silhouette& out, const EdgeTree& tree, const TriMesh
                             const Light& light, ExtractionScratch& scratch,
                             ExtractionStats* stats) {
   find(out, tree, mesh, light, scratch, stats, true);
+}
+
+void find_near_planes(std::vector<std::uint32_t>& out, const EdgeTree& tree, const Light& light,
+                      double distance, ExtractionScratch& scratch) {
+  out.clear();
+  DualLight dual = dual_light(light, tree.centre, tree.largest_w);
+  // Normals are up to kLargestNormal long; the rest is rounding to float.
+  dual.slack += static_cast<float>(distance * dual.factor * (kLargestNormal * (1 + 0x1p-20)));
+  HWY_DYNAMIC_DISPATCH(NearPlanes)(tree, dual, scratch, out);
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
 }
 
 }  // namespace gnomon

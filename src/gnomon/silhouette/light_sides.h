@@ -10,8 +10,9 @@
 
 namespace gnomon {
 
-// Per triangle (A,B,C): +1 or -1, the exact sign of |A; B; C; light| under the tie rule.
-// Preconditions: welded mesh (no triangle of zero area); light components snapped (see exact.h).
+// Per triangle (A,B,C): +1 or -1, the exact sign of |A; B; C; light| under the tie rule; -1 for one
+// without area, as vertices that move may leave.
+// Preconditions: coordinates and light components snapped (snapped(), exact.h).
 std::vector<std::int8_t> light_sides(const TriMesh& mesh, const Light& light,
                                      ExactStats* stats = nullptr);
 

@@ -5,6 +5,8 @@
 #include <cassert>
 #include <cmath>
 
+#include <glm/common.hpp>
+
 // Notation: S the largest coordinate relative to the light (see scale_of); r a vertex relative to
 // the light; x the component of r along the axis of a face of the cube, y and z the others;
 // (u, v) = (y/x, z/x), or the coordinates of a directional light's grid, in cells.
@@ -28,89 +30,99 @@ constexpr double kPointSlack = 0x1p-17;
 constexpr double kPlaneError = 0x1p-50;
 // Of S: the least extent that a directional light's grid is given.
 constexpr double kLeastExtent = 0x1p-40;
+// In cells: edges that rise less are taken as wide as they are in every row that they touch.
+constexpr double kFlat = 0x1p-30;
 
 struct Polygon {
   std::array<Vec2, 4> at;
   int size = 0;
 };
 
-// A grid of cells, in each the number of items that touch it.
+// A grid of cells, in each the half layers of the items that touch it; as differences along rows
+// until fullest() adds them up.
 struct Grid {
   int n;
-  double slack;  // in cells: how far a computed point may be from the true one
-  std::vector<std::uint32_t> count, stamp;  // stamp: 1 + the last item that was counted here
-  std::vector<double> low, high;            // per row, of the polygon at hand
+  Vec2 slack;                      // in cells: how far a computed point may be from the true one
+  std::vector<std::int32_t> step;  // n + 1 a row: count of a cell minus that of the one before
+  std::vector<double> low, high;   // per row, of the figure at hand
 
-  Grid(int cells, int faces, double slack_in_cells)
-      : n(cells), slack(slack_in_cells), low(size(1)), high(size(1)) {
-    count.assign(size(1) * size(1) * static_cast<std::size_t>(faces), 0);
-    stamp = count;
+  Grid(int cells, int faces, const Vec2& slack_in_cells)
+      : n(cells), slack(slack_in_cells), low(size(cells)), high(size(cells)) {
+    step.assign((size(cells) + 1) * size(cells) * size(faces), 0);
   }
-  std::size_t size(int k) const {
-    return static_cast<std::size_t>(n) * static_cast<std::size_t>(k);
-  }
+  static std::size_t size(int k) { return static_cast<std::size_t>(k); }
   int cell(double x) const {  // that holds x; nearest one of the grid
-    return static_cast<int>(std::clamp(std::floor(x), 0.0, static_cast<double>(n - 1)));
+    return static_cast<int>(std::min(std::max(x, 0.0), n - 1.0));
   }
 
-  // Counts item once in all cells that the convex polygon, grown by the slack, can touch.
+  // Counts so many half layers in all cells that the convex figure, grown by the slack, can touch.
+  // `edges` go round it, in any order.
   // The true figure lies within the slack of the computed one, point by point; so what of it is in
   // the row [j, j+1] lies within the slack of what the computed one has in [j - slack, j+1 +
   // slack].
-  void add(const Polygon& p, int face, std::uint32_t item) {
-    if (p.size == 0) return;
-    Vec2 lo = p.at[0], hi = p.at[0];
-    for (int k = 1; k < p.size; ++k) {
-      lo = {std::min(lo.x, p.at[k].x), std::min(lo.y, p.at[k].y)};
-      hi = {std::max(hi.x, p.at[k].x), std::max(hi.y, p.at[k].y)};
+  void add(std::span<const std::array<Vec2, 2>> edges, int face, int halves) {
+    if (edges.empty()) return;
+    Vec2 lo = edges[0][0], hi = lo;
+    for (const auto& edge : edges) {
+      for (const Vec2& p : edge) {
+        lo = {std::min(lo.x, p.x), std::min(lo.y, p.y)};
+        hi = {std::max(hi.x, p.x), std::max(hi.y, p.y)};
+      }
     }
-    if (lo.x - slack > n || lo.y - slack > n || hi.x + slack < 0 || hi.y + slack < 0) return;
-    const int first_row = cell(lo.y - slack), last_row = cell(hi.y + slack);
+    if (lo.x - slack.x > n || lo.y - slack.y > n || hi.x + slack.x < 0 || hi.y + slack.y < 0)
+      return;
+    const int first_row = cell(lo.y - slack.y), last_row = cell(hi.y + slack.y);
     if (first_row == last_row) {
-      add_row(face, first_row, lo.x, hi.x, item);
+      add_row(face, first_row, lo.x, hi.x, halves);
       return;
     }
     for (int j = first_row; j <= last_row; ++j) {
-      low[static_cast<std::size_t>(j)] = HUGE_VAL;
-      high[static_cast<std::size_t>(j)] = -HUGE_VAL;
+      low[size(j)] = HUGE_VAL;
+      high[size(j)] = -HUGE_VAL;
     }
-    for (int k = 0; k < p.size; ++k) widen_rows(p.at[k], p.at[(k + 1) % p.size]);
-    for (int j = first_row; j <= last_row; ++j) {
-      add_row(face, j, low[static_cast<std::size_t>(j)], high[static_cast<std::size_t>(j)], item);
-    }
+    for (const auto& [a, b] : edges) widen_rows(a, b);
+    for (int j = first_row; j <= last_row; ++j)
+      add_row(face, j, low[size(j)], high[size(j)], halves);
   }
 
   void widen_rows(Vec2 a, Vec2 b) {
     if (a.y > b.y) std::swap(a, b);
-    if (a.y - slack > n || b.y + slack < 0) return;
-    const int first_row = cell(a.y - slack), last_row = cell(b.y + slack);
+    if (a.y - slack.y > n || b.y + slack.y < 0) return;
+    const int first_row = cell(a.y - slack.y), last_row = cell(b.y + slack.y);
     const double rise = b.y - a.y;
-    for (int j = first_row; j <= last_row; ++j) {
-      double from = 0, to = 1;  // along the edge, what lies in the grown row
-      if (rise > 0) {
-        from = std::clamp((j - slack - a.y) / rise, 0.0, 1.0);
-        to = std::clamp((j + 1 + slack - a.y) / rise, 0.0, 1.0);
+    if (rise < kFlat) {
+      for (int j = first_row; j <= last_row; ++j) {
+        low[size(j)] = std::min({low[size(j)], a.x, b.x});
+        high[size(j)] = std::max({high[size(j)], a.x, b.x});
       }
-      const double x0 = a.x + from * (b.x - a.x), x1 = a.x + to * (b.x - a.x);
-      double &l = low[static_cast<std::size_t>(j)], &h = high[static_cast<std::size_t>(j)];
-      l = std::min({l, x0, x1});
-      h = std::max({h, x0, x1});
+      return;
+    }
+    // Along the edge, what lies in the grown row.
+    const double slope = (b.x - a.x) / rise, from = -slack.y - a.y, to = 1 + slack.y - a.y;
+    for (int j = first_row; j <= last_row; ++j) {
+      const double y0 = std::min(std::max(j + from, 0.0), rise),
+                   y1 = std::min(std::max(j + to, 0.0), rise);
+      const double x0 = a.x + y0 * slope, x1 = a.x + y1 * slope;
+      low[size(j)] = std::min(low[size(j)], std::min(x0, x1));
+      high[size(j)] = std::max(high[size(j)], std::max(x0, x1));
     }
   }
 
-  void add_row(int face, int row, double from, double to, std::uint32_t item) {
-    if (from - slack > n || to + slack < 0 || from > to) return;
-    const std::size_t start = (size(face) + static_cast<std::size_t>(row)) * size(1);
-    for (std::size_t k = start + static_cast<std::size_t>(cell(from - slack)),
-                     end = start + static_cast<std::size_t>(cell(to + slack));
-         k <= end; ++k) {
-      if (stamp[k] == item + 1) continue;
-      stamp[k] = item + 1;
-      ++count[k];
-    }
+  void add_row(int face, int row, double from, double to, int halves) {
+    if (from - slack.x > n || to + slack.x < 0 || from > to) return;
+    std::int32_t* start = step.data() + (size(face) * size(n) + size(row)) * (size(n) + 1);
+    start[cell(from - slack.x)] += halves;
+    start[cell(to + slack.x) + 1] -= halves;
   }
 
-  int fullest() const { return static_cast<int>(*std::max_element(count.begin(), count.end())); }
+  std::int32_t fullest() const {
+    std::int32_t most = 0;
+    for (std::size_t row = 0; row < step.size(); row += size(n) + 1) {
+      std::int32_t count = 0;
+      for (std::size_t k = row; k < row + size(n); ++k) most = std::max(most, count += step[k]);
+    }
+    return most;
+  }
 };
 
 using Corners3 = std::array<Vec3, 3>;
@@ -174,47 +186,55 @@ Polygon on_face(const Corners3& r, int axis, double sign, double near, int cells
   return p;
 }
 
-double largest_coordinate(const TriMesh& mesh, const LayerItems& items, int k) {
+double largest_coordinate(const LayerItems& items) {
   double largest = 0;
-  for (const std::uint32_t t : items.triangles) {
-    for (const std::uint32_t v : mesh.triangles[t]) {
-      largest = std::max(largest, std::fabs(mesh.positions[v][k]));
-    }
-  }
+  for (int k = 0; k < 3; ++k)
+    largest = std::max({largest, std::fabs(items.lo[k]), std::fabs(items.hi[k])});
   return largest;
 }
 
-int point_bound(const TriMesh& mesh, const LayerItems& items, const Light& light, int cells) {
+std::int32_t point_bound(const TriMesh& mesh, const LayerItems& items, const Light& light,
+                         int cells) {
   double s = 0;
   for (int k = 0; k < 3; ++k) {
-    s = std::max(s, largest_coordinate(mesh, items, k) * light.w + std::fabs(light[k]));
+    s = std::max(s, std::max(std::fabs(items.lo[k]), std::fabs(items.hi[k])) * light.w +
+                        std::fabs(light[k]));
   }
   static_assert(kPlaceError * 1024 < kTouch);
   const double touch = kTouch * s;
-  Grid grid(cells, 6, kPointSlack * 0.5 * cells);
-  int everywhere = 0;
-  for (std::uint32_t item = 0; item + 1 < items.first.size(); ++item) {
+  Grid grid(cells, 6, Vec2(kPointSlack * 0.5 * cells));
+  std::int32_t everywhere = 0;
+  std::vector<Corners3> relative;          // an item's triangles
+  std::vector<std::array<Vec2, 2>> edges;  // what of them is seen on a face
+  for (std::size_t item = 0; item + 1 < items.first.size(); ++item) {
+    relative.clear();
     for (std::uint32_t k = items.first[item]; k < items.first[item + 1]; ++k) {
-      Corners3 r = corners(mesh, items.triangles[k]);
-      for (Vec3& p : r) p = p * light.w - Vec3(light);
-      if (!clear_of_light(r, touch)) {
-        ++everywhere;  // what was counted in cells before stays: once too often, no harm
-        break;
-      }
-      for (int face = 0; face < 6; ++face) {
-        const int axis = face / 2;
-        const double sign = face % 2 == 0 ? 1 : -1;
-        if (std::max({sign * r[0][axis], sign * r[1][axis], sign * r[2][axis]}) < touch / 2) {
+      relative.push_back(corners(mesh, items.triangles[k]));
+      for (Vec3& p : relative.back()) p = p * light.w - Vec3(light);
+    }
+    if (!std::all_of(relative.begin(), relative.end(),
+                     [&](const Corners3& r) { return clear_of_light(r, touch); })) {
+      everywhere += items.halves[item];
+      continue;
+    }
+    for (int face = 0; face < 6; ++face) {
+      const int axis = face / 2;
+      const double sign = face % 2 == 0 ? 1 : -1;
+      edges.clear();
+      for (const Corners3& r : relative) {
+        if (std::max({sign * r[0][axis], sign * r[1][axis], sign * r[2][axis]}) < touch / 2)
           continue;
-        }
-        grid.add(on_face(r, axis, sign, touch / 2, cells), face, item);
+        const Polygon p = on_face(r, axis, sign, touch / 2, cells);
+        for (int k = 0; k < p.size; ++k) edges.push_back({p.at[k], p.at[(k + 1) % p.size]});
       }
+      grid.add(edges, face, items.halves[item]);
     }
   }
   return everywhere + grid.fullest();
 }
 
-int plane_bound(const TriMesh& mesh, const LayerItems& items, const Light& light, int cells) {
+std::int32_t plane_bound(const TriMesh& mesh, const LayerItems& items, const Light& light,
+                         int cells, double spread, const PartSilhouettes* outlines) {
   int axis = 0;
   for (int k = 1; k < 3; ++k) {
     if (std::fabs(light[k]) > std::fabs(light[axis])) axis = k;
@@ -222,59 +242,101 @@ int plane_bound(const TriMesh& mesh, const LayerItems& items, const Light& light
   const int i = (axis + 1) % 3, j = (axis + 2) % 3;
   const double di = light[i] / light[axis], dj = light[j] / light[axis];
   const auto seen = [&](const Vec3& p) { return Vec2(p[i] - p[axis] * di, p[j] - p[axis] * dj); };
-  double s = 0;
-  for (int k = 0; k < 3; ++k) s = std::max(s, largest_coordinate(mesh, items, k));
-  Vec2 lo(HUGE_VAL), hi(-HUGE_VAL);
-  for (const std::uint32_t t : items.triangles) {
-    for (const Vec3& p : corners(mesh, t)) {
-      const Vec2 q = seen(p);
-      lo = {std::min(lo.x, q.x), std::min(lo.y, q.y)};
-      hi = {std::max(hi.x, q.x), std::max(hi.y, q.y)};
+  const double s = largest_coordinate(items);
+
+  // All edges, item by item; of a convex part those of its outline, if there is one: they go round
+  // its shadow.
+  std::vector<std::array<Vec2, 2>> edges;
+  std::vector<std::size_t> first{0};  // per item
+  edges.reserve(3 * items.triangles.size());
+  first.reserve(items.first.size());
+  for (std::size_t item = 0; item + 1 < items.first.size(); ++item) {
+    if (outlines != nullptr && items.convex_part[item] != kNoPart) {
+      for (const SilhouetteEdge& e : outlines->of(items.convex_part[item]))
+        edges.push_back({seen(mesh.positions[e.a]), seen(mesh.positions[e.b])});
+    } else {
+      for (std::uint32_t k = items.first[item]; k < items.first[item + 1]; ++k) {
+        const Corners3 c = corners(mesh, items.triangles[k]);
+        const Vec2 at[3] = {seen(c[0]), seen(c[1]), seen(c[2])};
+        edges.insert(edges.end(), {{at[0], at[1]}, {at[1], at[2]}, {at[2], at[0]}});
+      }
     }
+    first.push_back(edges.size());
+  }
+  Vec2 lo(HUGE_VAL), hi(-HUGE_VAL);
+  for (const auto& edge : edges) {
+    lo = {std::min(lo.x, edge[0].x), std::min(lo.y, edge[0].y)};
+    hi = {std::max(hi.x, edge[0].x), std::max(hi.y, edge[0].y)};
+    lo = {std::min(lo.x, edge[1].x), std::min(lo.y, edge[1].y)};
+    hi = {std::max(hi.x, edge[1].x), std::max(hi.y, edge[1].y)};
   }
   const Vec2 scale = {cells / std::max(hi.x - lo.x, kLeastExtent * s),
                       cells / std::max(hi.y - lo.y, kLeastExtent * s)};
-  // Scaling and interpolating rounds by some 2^-52 of `cells`.
-  Grid grid(cells, 1, 2 * kPlaneError * s * std::max(scale.x, scale.y) + 0x1p-30);
-  for (std::uint32_t item = 0; item + 1 < items.first.size(); ++item) {
-    for (std::uint32_t k = items.first[item]; k < items.first[item + 1]; ++k) {
-      Polygon p;
-      p.size = 3;
-      const Corners3 c = corners(mesh, items.triangles[k]);
-      for (std::size_t m = 0; m < 3; ++m) p.at[m] = (seen(c[m]) - lo) * scale;
-      grid.add(p, 0, item);
-    }
+  // Under another light a point is seen p_axis (d_i/d_axis - d'_i/d'_axis) farther: all by the same
+  // as a point halfway between nearest and farthest, which is no matter, and by at most half the
+  // depth times the spread. Scaling and interpolating rounds by some 2^-52 of `cells`.
+  const double moved = (items.hi[axis] - items.lo[axis]) / 2 * spread * (1 + 0x1p-40);
+  Grid grid(cells, 1, (2 * kPlaneError * s + moved) * scale + 0x1p-30);
+  for (auto& [a, b] : edges) {
+    a = (a - lo) * scale;
+    b = (b - lo) * scale;
+  }
+  for (std::size_t item = 0; item + 1 < first.size(); ++item) {
+    grid.add(std::span(edges).subspan(first[item], first[item + 1] - first[item]), 0,
+             items.halves[item]);
   }
   return grid.fullest();
 }
 
 }  // namespace
 
-LayerItems layer_items(const Parts& parts, const std::vector<std::int8_t>& sides,
-                       const std::vector<std::uint8_t>& cap) {
+LayerItems layer_items(const Parts& parts, std::span<const CastingSides> sides) {
   LayerItems items;
-  const auto end_item = [&] {
-    const auto end = static_cast<std::uint32_t>(items.triangles.size());
-    if (end != items.first.back()) items.first.push_back(end);
+  const auto end_item = [&](int halves, std::uint32_t part) {
+    items.convex_part.push_back(part);
+    items.first.push_back(static_cast<std::uint32_t>(items.triangles.size()));
+    items.halves.push_back(static_cast<std::uint8_t>(halves));
   };
-  for (const Part& part : parts.parts) {
-    for (const int side : {1, -1}) {
-      for (const std::uint32_t t : part.triangles) {
-        if (sides[t] != side || (!cap.empty() && cap[t] == 0)) continue;
-        items.triangles.push_back(t);
-        if (!part.convex) end_item();
-      }
-      end_item();
+  for (std::uint32_t p = 0; p < parts.parts.size(); ++p) {
+    const Part& part = parts.parts[p];
+    const CastingSides of = sides.empty() ? CastingSides::both : sides[p];
+    if (of == CastingSides::none) continue;
+    items.lo = glm::min(items.lo, part.lo);
+    items.hi = glm::max(items.hi, part.hi);
+    const int halves = of == CastingSides::one ? 1 : 2;
+    for (const std::uint32_t t : part.triangles) {
+      items.triangles.push_back(t);
+      if (!part.convex) end_item(halves, kNoPart);
     }
+    if (part.convex) end_item(2 * halves, p);
   }
   return items;
 }
 
-int layer_bound(const TriMesh& mesh, const LayerItems& items, const Light& light, int cells) {
-  assert(1 <= cells && cells <= 1024);
+int layer_bound(const TriMesh& mesh, const LayerItems& items, const Light& light, int cells,
+                double spread, const PartSilhouettes* outlines) {
+  assert(1 <= cells && cells <= 1024 && spread >= 0);
   if (items.triangles.empty()) return 0;
-  return light.w == 0 ? plane_bound(mesh, items, light, cells)
-                      : point_bound(mesh, items, light, cells);
+  const std::int32_t halves = light.w == 0
+                                  ? plane_bound(mesh, items, light, cells, spread, outlines)
+                                  : point_bound(mesh, items, light, cells);
+  return static_cast<int>(halves / 2);
+}
+
+bool near(const Light& light, const Light& other, double spread) {
+  if (light == other) return true;
+  if (light.w != 0 || other.w != 0) return false;
+  int axis = 0;
+  for (int k = 1; k < 3; ++k) {
+    if (std::fabs(light[k]) > std::fabs(light[axis])) axis = k;
+  }
+  // The same direction, not the opposite one: rays that end at the caster are others then.
+  if (!(light[axis] * other[axis] > 0)) return false;
+  for (int k = 0; k < 3; ++k) {
+    const double d = std::fabs(light[k] / light[axis] - other[k] / other[axis]);
+    if (!(d <= spread * (1 - 0x1p-40) - 0x1p-50)) return false;  // rounding pays for itself
+  }
+  return true;
 }
 
 }  // namespace gnomon

@@ -2,7 +2,8 @@
 //
 // A closed part's volume can be counted with its light-facing triangles alone; a convex part is
 // entered and left at most once by any ray, so it is one layer of shadow, not two. Both are exact
-// properties of the stored coordinates. Made once per mesh, for all lights.
+// properties of the stored coordinates. Made once per mesh, for all lights; anew after vertices
+// have moved, for what is convex, its winding and the boxes.
 //
 // Convexity is certified, not guessed, after Mehlhorn, Naeher, Seel, Seidel, Schilz, Schirra and
 // Uhrig, "Checking geometric programs or verification of geometric structures", 1999: see

@@ -87,37 +87,6 @@ void push_loops(VolumeLists& lists, const Loops& loops, SideForm form, const Gra
 
 }  // namespace
 
-EdgesOfParts edges_of_parts(const EdgeTable& edges, const std::vector<std::uint32_t>& part_of,
-                            std::size_t parts) {
-  EdgesOfParts out;
-  out.first.assign(parts + 1, 0);
-  out.edge.resize(edges.vertices.size());
-  const auto part = [&](std::size_t k) { return part_of[edges.incidence[edges.first[k]] >> 1]; };
-  for (std::size_t k = 0; k < edges.vertices.size(); ++k) ++out.first[part(k) + 1];
-  for (std::size_t p = 0; p < parts; ++p) out.first[p + 1] += out.first[p];
-  std::vector<std::uint32_t> next(out.first.begin(), out.first.end() - 1);
-  for (std::size_t k = 0; k < edges.vertices.size(); ++k)
-    out.edge[next[part(k)]++] = static_cast<std::uint32_t>(k);
-  return out;
-}
-
-void find_part_silhouette(Silhouette& out, const EdgeTable& table,
-                          std::span<const std::uint32_t> edges,
-                          std::span<const std::uint32_t> group_of, std::uint32_t group,
-                          std::span<const std::int8_t> sides, Casting casting) {
-  for (const std::uint32_t k : edges) {
-    std::int32_t multiplicity = 0;
-    for (std::uint32_t i = table.first[k]; i < table.first[k + 1]; ++i) {
-      const std::uint32_t t = table.incidence[i] >> 1;
-      const bool backward = (table.incidence[i] & 1u) != 0;
-      if (group_of[t] != group || !casts(casting, sides[t])) continue;
-      multiplicity += backward ? -sides[t] : sides[t];
-    }
-    if (multiplicity != 0)
-      out.push_back({table.vertices[k][0], table.vertices[k][1], multiplicity});
-  }
-}
-
 void find_silhouette_of_few(Silhouette& out, const TriMesh& mesh,
                             std::span<const std::uint32_t> triangles,
                             std::span<const std::int8_t> sides, Casting casting) {

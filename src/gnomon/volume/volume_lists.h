@@ -75,19 +75,14 @@ enum class SideForm : std::uint8_t {
 };
 inline constexpr std::uint32_t kRestart = 0xffffffffu;
 
-// Edges by the part of a mesh that they belong to, made once: CSR over the edges of an EdgeTable.
-struct EdgesOfParts {
-  std::vector<std::uint32_t> first, edge;
-};
-EdgesOfParts edges_of_parts(const EdgeTable& edges, const std::vector<std::uint32_t>& part_of,
-                            std::size_t parts);
-
 // Edges of triangles whose plane holds the light, or nearly: vertices a < b, ascending. The sides
 // over them lie in that plane, and go to lists of their own.
 using GrazedEdges = std::vector<std::array<std::uint32_t, 2>>;
 
-// Appends the volume of triangles whose silhouette is known already (a lit region), or which is to
-// be sent in one piece. Sides are not turned then: loops run the way that they count.
+// Appends the volume of triangles whose silhouette is known already (a part, a lit region).
+// `triangles` are those whose caps are made (of them, those that `casting` lets cast), `sides` the
+// mesh's light_sides(); both may be empty: sides alone, which is all that z-pass needs.
+// Strips and fans have no turned sides: loops run the way that they count.
 // `beyond`: per vertex of the mesh, 1 where it and all far ends lie beyond everything that
 // receives, as seen from the eye; triangles of sides that have no other corner go to the dark cap
 // (form triangles): z-fail counts them behind everything, z-pass never. Empty: none.
@@ -98,16 +93,8 @@ void append_volume(VolumeLists& lists, const TriMesh& mesh,
                    std::span<const std::uint8_t> beyond, LoopScratch& scratch,
                    const GrazedEdges& grazed = {});
 
-// The silhouette of a part for a choice of its casting triangles, appended to `out`. `edges`: at
-// least all edges of the part. `group_of`: per triangle of the mesh; triangles of other groups than
-// `group` do not count. `sides`: light_sides() of the mesh.
-void find_part_silhouette(Silhouette& out, const EdgeTable& table,
-                          std::span<const std::uint32_t> edges,
-                          std::span<const std::uint32_t> group_of, std::uint32_t group,
-                          std::span<const std::int8_t> sides, Casting casting);
-
-// The same of a few triangles (all of which count that cast), in time that follows them and not the
-// part.
+// The silhouette of a few triangles (all of which count that cast), appended to `out`, in time that
+// follows them. `sides`: light_sides() of the mesh.
 void find_silhouette_of_few(Silhouette& out, const TriMesh& mesh,
                             std::span<const std::uint32_t> triangles,
                             std::span<const std::int8_t> sides, Casting casting);

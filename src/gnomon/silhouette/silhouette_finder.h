@@ -1,0 +1,42 @@
+// Silhouettes of one caster, light after light, by whichever method costs least: one interface over
+// brute force, the tree of edges and the second paper's tree. All find the same edges.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <gnomon/mesh/edge_table.h>
+#include <gnomon/mesh/tri_mesh.h>
+#include <gnomon/silhouette/edge_tree.h>
+#include <gnomon/silhouette/hextree.h>
+#include <gnomon/silhouette/silhouette.h>
+
+namespace gnomon {
+
+// automatic: brute force, and from the kLightsBeforeTree-th light on the tree of edges.
+enum class SilhouetteBy : std::uint8_t { automatic, brute_force, dual_space, edge_tree };
+
+// Building the tree costs as much as 60 to 230 extractions by brute force (docs/silhouettes.md);
+// who asks so often will probably ask again.
+inline constexpr std::uint32_t kLightsBeforeTree = 64;
+
+struct SilhouetteFinder {
+  std::uint32_t lights = 0;           // asked for since it was made or vertices moved
+  std::optional<EdgeTree> edge_tree;  // made when it is first needed; kept when vertices move
+  std::optional<Hextree> dual_space;
+  bool current = false;  // the planes of edge_tree are those of the mesh
+  ExtractionScratch scratch;
+};
+
+// The edges of find_silhouette(), in the order of the EdgeTable. `light`: in the mesh's
+// coordinates, snapped. `sides` becomes light_sides() where they were needed to find it (brute
+// force), else empty. Preconditions: `edges` was built from this mesh; `finder` is of them alone.
+void find_silhouette(Silhouette& out, std::vector<std::int8_t>& sides, SilhouetteFinder& finder,
+                     SilhouetteBy by, const TriMesh& mesh, const EdgeTable& edges,
+                     const Light& light);
+
+// To be called when vertices have moved: the same triangles, other planes.
+void vertices_moved(SilhouetteFinder& finder);
+
+}  // namespace gnomon
