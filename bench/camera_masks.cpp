@@ -271,7 +271,8 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   try {
 #ifdef GNOMON_HAVE_GL
-    const gnomon::Result<gnomon::gl::HeadlessContext> context = gnomon::gl::HeadlessContext::create();
+    const gnomon::Result<gnomon::gl::HeadlessContext> context =
+        gnomon::gl::HeadlessContext::create();
     if (!context) std::fprintf(stderr, "OpenGL is left out: %s\n", context.error().message.c_str());
 #endif
     gnomon::bench::run(o);

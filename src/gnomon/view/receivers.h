@@ -37,7 +37,8 @@ struct Receivers {
   bool casters_in_front =
       false;  // some caster does not receive: rays may cross casters before they reach their sample
   bool receivers_not_casting = false;
-  LeastCells cells;  // of nearness; without levels: not made yet. Whoever changes nearness empties it.
+  LeastCells
+      cells;  // of nearness; without levels: not made yet. Whoever changes nearness empties it.
 };
 
 }  // namespace gnomon
