@@ -160,7 +160,9 @@ std::string summary_of(const Options& o, const gl::FrameStats& s, const Scene& s
   json["volumes"] = {{"z_pass", s.z_pass_volumes},       {"z_fail", s.z_fail_volumes},
                      {"of_polygons", s.polygon_volumes}, {"triangles", s.volume_triangles},
                      {"scissored", s.scissored_volumes}, {"culled", s.culled_volumes}};
-  json["volume_cache"] = {{"casters_made_anew", s.rebuilt}, {"casters_kept", s.kept}};
+  json["volume_cache"] = {{"casters_made_anew", s.rebuilt},
+                          {"casters_kept", s.kept},
+                          {"silhouettes_by_tree", s.by_tree}};
   json["passes"] = s.passes;
   json["timings_ms"] = {{"volumes", s.volumes_ms}, {"first_frame", ms}};
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";

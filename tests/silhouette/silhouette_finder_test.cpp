@@ -131,8 +131,14 @@ TEST(SilhouetteFinder, TakesTheTreeOnceManyLightsWereAskedForAndNotForOneFrameOf
   EXPECT_TRUE(sides.empty());
   vertices_moved(finder);
   EXPECT_FALSE(finder.current);
+  for (std::uint32_t k = 1; k < kLightsBeforeRefresh; ++k) {
+    ask();
+    EXPECT_FALSE(finder.current);  // brute force again
+    EXPECT_EQ(finder.last, SilhouetteBy::brute_force);
+  }
   ask();
-  EXPECT_FALSE(finder.current);  // brute force again
+  EXPECT_TRUE(finder.current);
+  EXPECT_EQ(finder.last, SilhouetteBy::edge_tree);
 }
 
 double distance_to_plane(const TriMesh& m, std::uint32_t t, const Light& light) {

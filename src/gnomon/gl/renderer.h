@@ -71,6 +71,7 @@ struct FrameStats {
   int culled_volumes = 0;     // volumes that shade nothing in the picture and were not drawn
   // The cache of volumes, by instance and light: what nothing has changed for is kept.
   int rebuilt = 0, kept = 0;
+  int by_tree = 0;         // casters, made anew or kept, whose model's last silhouette a tree found
   double volumes_ms = 0;   // until silhouettes were found, volumes made and handed to OpenGL
   int moved_lights = 0;    // lamps that touched a caster: shadows are those of lamps beside them,
                            // 2^-13 of the largest coordinate away (docs/renderer-limits.md)

@@ -129,6 +129,7 @@ Prepared prepare(const Frame& frame, const LightPlan& plan) {
     CasterVolumes& v = instance.volumes[plan.number];
     out.changed.push_back(
         update_silhouettes(v, mesh.gpu, mesh.version, of.light, of.parts, plan.method.silhouettes));
+    if (mesh.gpu.silhouettes.last > SilhouetteBy::brute_force) ++frame.stats->by_tree;
     out.layers += v.layers;
     out.all.push_back({&instance, &mesh.gpu, &v, &of, {}});
     out.offset |= v.grazed;

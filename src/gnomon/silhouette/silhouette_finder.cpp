@@ -9,8 +9,12 @@ void find_silhouette(Silhouette& out, std::vector<std::int8_t>& sides, Silhouett
                      const Light& light) {
   ++finder.lights;
   if (by == SilhouetteBy::automatic) {
-    by = finder.lights < kLightsBeforeTree ? SilhouetteBy::brute_force : SilhouetteBy::edge_tree;
+    const std::uint32_t from = finder.current     ? 0
+                               : finder.edge_tree ? kLightsBeforeRefresh
+                                                  : kLightsBeforeTree;
+    by = finder.lights < from ? SilhouetteBy::brute_force : SilhouetteBy::edge_tree;
   }
+  finder.last = by;
   sides.clear();
   if (by == SilhouetteBy::brute_force) {
     sides = light_sides(mesh, light);

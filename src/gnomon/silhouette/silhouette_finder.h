@@ -14,18 +14,22 @@
 
 namespace gnomon {
 
-// automatic: brute force, and from the kLightsBeforeTree-th light on the tree of edges.
+// automatic: brute force, and from the kLightsBeforeTree-th light on the tree of edges; if there is
+// one, but vertices have moved, from the kLightsBeforeRefresh-th light since then.
 enum class SilhouetteBy : std::uint8_t { automatic, brute_force, dual_space, edge_tree };
 
 // Building the tree costs as much as 60 to 230 extractions by brute force (docs/silhouettes.md);
 // who asks so often will probably ask again.
 inline constexpr std::uint32_t kLightsBeforeTree = 64;
+// Giving it the planes of vertices that have moved: as much as about 12 extractions.
+inline constexpr std::uint32_t kLightsBeforeRefresh = 12;
 
 struct SilhouetteFinder {
   std::uint32_t lights = 0;           // asked for since it was made or vertices moved
   std::optional<EdgeTree> edge_tree;  // made when it is first needed; kept when vertices move
   std::optional<Hextree> dual_space;
-  bool current = false;  // the planes of edge_tree are those of the mesh
+  bool current = false;                         // the planes of edge_tree are those of the mesh
+  SilhouetteBy last = SilhouetteBy::automatic;  // how the last one was found; automatic: none was
   ExtractionScratch scratch;
 };
 
