@@ -34,7 +34,7 @@ static_assert(kBandRows % (1 << kCellShift) == 0);  // whole cells
 constexpr std::size_t kBatchBytes = std::size_t{96} << 20;
 constexpr std::size_t kBatchLights = 16;
 // A tree of edges is built for as many lights: one light costs brute force 8 ns a triangle and the
-// tree 1, and building it, by one thread, 700 to 3000 (docs/silhouettes.md).
+// tree 1, and building it, by one thread, 500 to 2000 (docs/silhouettes.md).
 constexpr std::size_t kLightsForTree = 512;
 // Planes for sun_sides() are made for as many: they cost about what two lights save.
 constexpr std::size_t kLightsForPlanes = 4;

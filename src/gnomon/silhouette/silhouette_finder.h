@@ -18,7 +18,7 @@ namespace gnomon {
 // one, but vertices have moved, from the kLightsBeforeRefresh-th light since then.
 enum class SilhouetteBy : std::uint8_t { automatic, brute_force, dual_space, edge_tree };
 
-// Building the tree costs as much as 60 to 230 extractions by brute force (docs/silhouettes.md);
+// Building the tree costs as much as 20 to 170 extractions by brute force (docs/silhouettes.md);
 // who asks so often will probably ask again.
 inline constexpr std::uint32_t kLightsBeforeTree = 64;
 // Giving it the planes of vertices that have moved: as much as about 12 extractions.
