@@ -11,7 +11,6 @@
 #include <optional>
 
 #include <gnomon/io/load_scene.h>
-#include <gnomon/profile/study_times.h>
 #include <gnomon/raster/count_shadows.h>
 #include <gnomon/raster/visible_surfaces.h>
 #include <gnomon/trace/embree_masks.h>
@@ -21,6 +20,7 @@
 #endif
 
 #include "report.h"
+#include "suns.h"
 
 namespace gnomon::bench {
 namespace {
@@ -48,18 +48,6 @@ struct Case {
   double shadowed = 0;  // share of the samples, all lights
   std::vector<Contender> contenders;
 };
-
-std::vector<Light> suns(int count, double true_north) {
-  const StudyTimes times{"2024-09-18", "09:00", "17:00", fmt::format("{}s", 8 * 3600 / count),
-                         "Europe/Vienna"};
-  const Place vienna{48.2 * kDegree, 16.37 * kDegree, 171};
-  const Samples samples = study_samples(times, vienna, true_north).value();
-  std::vector<Light> out;
-  for (const TimeSample& s : samples.midpoints) {
-    if (s.up && int(out.size()) < count) out.push_back(s.light);
-  }
-  return out;
-}
 
 // On a ring round a place.
 std::vector<Light> lamps(int count, const Vec3& centre, double radius) {
@@ -177,9 +165,9 @@ void run(const Options& o) {
                                          60 * kDegree, kWidth, kHeight);
     const View air = perspective_view(at(1010, 340440, 330), at(1260, 340770, 40), {0, 0, 1},
                                       40 * kDegree, kWidth, kHeight);
-    add("Vienna from the street, suns", vienna, street, suns(o.lights, north));
+    add("Vienna from the street, suns", vienna, street, suns_of(o.lights, north));
     add("Vienna from the street, lamps", vienna, street, lamps(o.lights, at(1330, 340776, 55), 40));
-    add("Vienna from the air, suns", vienna, air, suns(o.lights, north));
+    add("Vienna from the air, suns", vienna, air, suns_of(o.lights, north));
     add("Vienna from the air, lamps", vienna, air, lamps(o.lights, at(1260, 340770, 140), 150));
   }
   for (const auto& [name, file] : {std::pair("propeller", "architecture/occt/propeller.stl"),
@@ -204,7 +192,7 @@ void run(const Options& o) {
     const double size = std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
     const View view = perspective_view(middle + size * Vec3(0.9, -1.1, 0.8), middle, {0, 0, 1},
                                        40 * kDegree, kWidth, kHeight);
-    add(fmt::format("{} on a plane, suns", name), scene, view, suns(o.lights, 0));
+    add(fmt::format("{} on a plane, suns", name), scene, view, suns_of(o.lights, 0));
     add(fmt::format("{} on a plane, lamps", name), scene, view,
         lamps(o.lights, middle + Vec3(0, 0, size), size));
   }

@@ -10,12 +10,12 @@
 #include <string>
 
 #include <gnomon/io/load_scene.h>
-#include <gnomon/profile/study_times.h>
 #include <gnomon/raster/count_shadows.h>
 #include <gnomon/raster/visible_surfaces.h>
 #include <scenes/generated_city.h>
 
 #include "report.h"
+#include "suns.h"
 
 namespace gnomon::bench {
 namespace {
@@ -33,18 +33,6 @@ struct Point {
   int suns, threads;
   double ms_per_sun, set_up_ms;  // set-up: of the casters, once for all suns, and of the view
 };
-
-std::vector<Light> suns_of(int count, double true_north) {
-  const StudyTimes times{"2024-09-18", "09:00", "17:00", fmt::format("{}s", 8 * 3600 / count),
-                         "Europe/Vienna"};
-  const Place vienna{48.2 * kDegree, 16.37 * kDegree, 171};
-  std::vector<Light> lights;
-  const Samples samples = study_samples(times, vienna, true_north).value();
-  for (const TimeSample& s : samples.midpoints) {
-    if (s.up && static_cast<int>(lights.size()) < count) lights.push_back(s.light);
-  }
-  return lights;
-}
 
 // All suns over one view, each mask summed over all suns: what a profile does. Median of runs.
 Point measure(const std::string& series, double x, const Scene& scene, const View& view, int suns,

@@ -10,13 +10,13 @@
 #include <optional>
 
 #include <gnomon/io/load_scene.h>
-#include <gnomon/profile/study_times.h>
 #include <gnomon/raster/count_shadows.h>
 #include <gnomon/raster/visible_surfaces.h>
 #include <gnomon/trace/embree_masks.h>
 #include <scenes/generated_city.h>
 
 #include "report.h"
+#include "suns.h"
 
 namespace gnomon::bench {
 namespace {
@@ -47,19 +47,6 @@ struct EmbreeVariant {
 constexpr EmbreeVariant kVariants[] = {{false, 8}, {false, 16}, {true, 8}, {true, 16}};
 
 using Masks = std::vector<std::vector<std::uint8_t>>;  // per sun, one byte a pixel: 1 in shadow
-
-// One day of sun over Vienna, cut into equal steps: the lights at their midpoints.
-std::vector<Light> suns_of(int count, double true_north) {
-  const StudyTimes times{"2024-09-18", "09:00", "17:00", fmt::format("{}s", 8 * 3600 / count),
-                         "Europe/Vienna"};
-  const Place vienna{48.2 * kDegree, 16.37 * kDegree, 171};
-  std::vector<Light> lights;
-  const Samples samples = study_samples(times, vienna, true_north).value();
-  for (const TimeSample& s : samples.midpoints) {
-    if (s.up && static_cast<int>(lights.size()) < count) lights.push_back(s.light);
-  }
-  return lights;
-}
 
 // The counter's masks, as Embree writes them.
 void our_masks(const Casters& casters, const Receivers& receivers, const std::vector<Light>& lights,
