@@ -67,19 +67,10 @@ Case measure(const std::string& name, const Scene& scene, const View& view,
   c.samples =
       static_cast<std::size_t>(std::count_if(receivers.triangle.begin(), receivers.triangle.end(),
                                              [](std::uint32_t t) { return t != kNoTriangle; }));
-  c.contenders.push_back(
-      {"ours", [&](const Light& light, std::vector<std::uint8_t>& mask) {
-         count_shadows(
-             casters, receivers, {&light, 1},
-             [&](const CountBand& band) {
-               for (int row = 0; row < band.rows; ++row) {
-                 const std::int32_t* from = band.counts + row * band.stride;
-                 std::uint8_t* to = mask.data() + std::ptrdiff_t(band.first_row + row) * band.width;
-                 for (int k = 0; k < band.width; ++k) to[k] = from[k] > 0 ? 1 : 0;
-               }
-             },
-             o.threads);
-       }});
+  c.contenders.push_back({"ours", [&](const Light& light, std::vector<std::uint8_t>& mask) {
+                            std::uint8_t* to = mask.data();
+                            mask_shadows(casters, receivers, {&light, 1}, {&to, 1}, o.threads);
+                          }});
   const RayOrigins origins = ray_origins(scene, receivers, kLift, o.threads);
   std::vector<EmbreeScene> embree;
   for (const bool robust : {false, true}) {

@@ -49,12 +49,13 @@ Point measure(const std::string& series, double x, const Scene& scene, const Vie
     watch = Watch();
     count_shadows(
         casters, receivers, lights,
-        [&](const CountBand& band) {
-          for (int row = 0; row < band.rows; ++row) {
-            const std::int32_t* from = band.counts + static_cast<std::ptrdiff_t>(row) * band.stride;
-            std::uint32_t* to =
-                shadowed.data() + static_cast<std::ptrdiff_t>(band.first_row + row) * band.width;
-            for (int k = 0; k < band.width; ++k) to[k] += from[k] > 0 ? 1 : 0;
+        [&](const CountRect& part) {
+          for (int row = 0; row < part.rows; ++row) {
+            const std::int32_t* from = part.counts + static_cast<std::ptrdiff_t>(row) * part.stride;
+            std::uint32_t* to = shadowed.data() +
+                                static_cast<std::ptrdiff_t>(part.first_row + row) * view.width +
+                                part.first_column;
+            for (int k = 0; k < part.columns; ++k) to[k] += from[k] > 0 ? 1 : 0;
           }
         },
         threads);

@@ -127,11 +127,11 @@ void run(const Options& o) {
   std::atomic<std::uint64_t> dark{0};
   count_shadows(
       casters, receivers, lights,
-      [&](const CountBand& band) {
+      [&](const CountRect& part) {
         std::uint64_t sum = 0;
-        for (int row = 0; row < band.rows; ++row) {
-          for (int k = 0; k < band.width; ++k)
-            sum += band.counts[static_cast<std::ptrdiff_t>(row) * band.stride + k] > 0 ? 1 : 0;
+        for (int row = 0; row < part.rows; ++row) {
+          for (int k = 0; k < part.columns; ++k)
+            sum += part.counts[static_cast<std::ptrdiff_t>(row) * part.stride + k] > 0 ? 1 : 0;
         }
         dark += sum;
       },

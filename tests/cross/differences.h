@@ -13,10 +13,10 @@ namespace gnomon::test {
 inline std::vector<std::int32_t> counted(const Casters& casters, const Receivers& r,
                                          const Light& light) {
   std::vector<std::int32_t> counts(r.triangle.size(), 0);
-  count_shadows(casters, r, std::span(&light, 1), [&](const CountBand& b) {
+  count_shadows(casters, r, std::span(&light, 1), [&](const CountRect& b) {
     for (int row = 0; row < b.rows; ++row) {
-      for (int x = 0; x < b.width; ++x) {
-        counts[static_cast<std::size_t>((b.first_row + row) * b.width + x)] =
+      for (int x = 0; x < b.columns; ++x) {
+        counts[static_cast<std::size_t>((b.first_row + row) * r.view.width + b.first_column + x)] =
             b.counts[row * b.stride + x];
       }
     }

@@ -22,10 +22,10 @@ struct Casters {
 };
 Casters prepare_casters(const Scene& scene);
 
-// The finished counts of one light over some rows of the picture.
-struct CountBand {
+// The finished counts of one light over a part of the picture.
+struct CountRect {
   int light = 0;  // index into the lights
-  int first_row = 0, rows = 0, width = 0;
+  int first_column = 0, first_row = 0, columns = 0, rows = 0;
   int stride = 0;  // from one row of counts to the next
   // n(p) of DEFINITIONS; where the light is not strictly on the seen side of a receiver that does
   // not cast, at least 1. So a sample is in shadow exactly if its count is > 0. Pixels without a
@@ -33,9 +33,9 @@ struct CountBand {
   const std::int32_t* counts = nullptr;
 };
 
-// Called once per light and band; concurrently for different bands, one light after the other for
-// the same band.
-using BandSink = std::function<void(const CountBand&)>;
+// Called for rectangles that together are the picture, once for each and each light; concurrently
+// for different rectangles, one light after the other for the same one.
+using CountSink = std::function<void(const CountRect&)>;
 
 struct CountStats {
   ExactStats signs;   // light sides of triangles, facings, C(e)
@@ -51,7 +51,7 @@ struct CountStats {
 // Masks do not depend on `threads` (0: all), nor on the order or winding of triangles. Lights'
 // components are snapped (exact.h).
 CountStats count_shadows(const Casters& casters, const Receivers& receivers,
-                         std::span<const Light> lights, const BandSink& sink, int threads = 0);
+                         std::span<const Light> lights, const CountSink& sink, int threads = 0);
 
 // The same for whoever wants no counts, and faster: masks[i] receives width * height bytes,
 // row-major, of light i: 1 where the count is > 0, else 0. Precondition: as many masks as lights.
@@ -60,7 +60,7 @@ CountStats mask_shadows(const Casters& casters, const Receivers& receivers,
                         int threads = 0);
 
 // The specification: every sample against every side and caster by the exact predicates, no spans,
-// no filter of its own. Slow. Row-major counts as in CountBand.
+// no filter of its own. Slow. Row-major counts as in CountRect.
 std::vector<std::int32_t> count_shadows_reference(const Casters& casters,
                                                   const Receivers& receivers, const Light& light);
 

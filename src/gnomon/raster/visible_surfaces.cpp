@@ -7,6 +7,7 @@
 
 #include <gnomon/core/parallel.h>
 #include <gnomon/raster/least_cells.h>
+#include <gnomon/raster/nearness_tiles.h>
 #include <gnomon/raster/polygon.h>
 
 namespace gnomon {
@@ -236,7 +237,11 @@ Receivers visible_surfaces(const Scene& scene, const View& view, int threads, Ex
   out.nearness_floor = nearest * kFloorShare;
   parallel_for(bands, threads,
                [&](int b) { drawn[static_cast<std::size_t>(b)]->store(out, out.nearness_floor); });
-  out.cells = least_cells(scene, out, threads);
+  if (is_parallel(view)) {
+    out.cells = least_cells(scene, out, threads);
+  } else {
+    out.tiles = nearness_tiles(out, threads);
+  }
   if (stats != nullptr) *stats += local;
   return out;
 }

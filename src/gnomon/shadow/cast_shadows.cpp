@@ -13,29 +13,30 @@
 namespace gnomon {
 namespace {
 
-std::size_t index(const Receivers& r, int row) {
-  return static_cast<std::size_t>(row) * static_cast<std::size_t>(r.view.width);
+std::size_t index(const Receivers& r, int column, int row) {
+  return static_cast<std::size_t>(row) * static_cast<std::size_t>(r.view.width) +
+         static_cast<std::size_t>(column);
 }
 
-// Hands every row of finished counts to sink(light, counts, width, index of the row's first
-// sample).
+// Hands finished counts, row by row of a part of the picture, to sink(light, counts, how many,
+// index of the first sample).
 template <class RowSink>
 void for_each_row(const Casters& casters, const Receivers& receivers, std::span<const Light> lights,
                   const ShadowOptions& options, RowSink sink) {
   std::mutex progress_mutex;
   std::uint64_t done = 0;
-  const std::uint64_t total = static_cast<std::uint64_t>(receivers.view.height) * lights.size();
+  const std::uint64_t total = receivers.triangle.size() * lights.size();
   const CountStats stats = count_shadows(
       casters, receivers, lights,
-      [&](const CountBand& band) {
-        for (int row = 0; row < band.rows; ++row) {
-          sink(static_cast<std::size_t>(band.light),
-               band.counts + static_cast<std::ptrdiff_t>(row) * band.stride, band.width,
-               index(receivers, band.first_row + row));
+      [&](const CountRect& part) {
+        for (int row = 0; row < part.rows; ++row) {
+          sink(static_cast<std::size_t>(part.light),
+               part.counts + static_cast<std::ptrdiff_t>(row) * part.stride, part.columns,
+               index(receivers, part.first_column, part.first_row + row));
         }
         if (options.progress) {
           const std::lock_guard lock(progress_mutex);
-          done += static_cast<std::uint64_t>(band.rows);
+          done += static_cast<std::uint64_t>(part.rows) * static_cast<std::uint64_t>(part.columns);
           options.progress(static_cast<double>(done) / static_cast<double>(total));
         }
       },

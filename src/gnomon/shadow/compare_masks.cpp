@@ -289,11 +289,12 @@ ExactAnswers exact_answers(const ExactView& view, const Light& light, int thread
   out.light = snapped(light);
   const int width = view.samples.view.width;
   out.counts.resize(view.samples.triangle.size());
-  const BandSink sink = [&](const CountBand& band) {
-    for (int row = 0; row < band.rows; ++row) {
-      const std::int32_t* from = band.counts + static_cast<std::ptrdiff_t>(row) * band.stride;
-      std::copy(from, from + band.width,
-                out.counts.begin() + static_cast<std::ptrdiff_t>(band.first_row + row) * width);
+  const CountSink sink = [&](const CountRect& part) {
+    for (int row = 0; row < part.rows; ++row) {
+      const std::int32_t* from = part.counts + static_cast<std::ptrdiff_t>(row) * part.stride;
+      std::copy(from, from + part.columns,
+                out.counts.begin() + static_cast<std::ptrdiff_t>(part.first_row + row) * width +
+                    part.first_column);
     }
   };
   count_shadows(*view.casters, view.samples, std::span(&light, 1), sink, threads);

@@ -24,6 +24,27 @@ struct LeastCells {
   std::vector<Level> levels;  // the last has one cell
 };
 
+// Nearness once more, tile by tile, with its least and greatest over squares of four sizes: what
+// the sides that cameras and lamps see are tested against. raster/nearness_tiles.h makes it.
+inline constexpr int kTile = 8;  // pixels a side
+inline constexpr int kPatch = 4 * kTile;
+inline constexpr int kBlock = 4 * kPatch;
+inline constexpr int kField = 4 * kBlock;
+struct NearnessTiles {
+  // Of the samples in each square; both bounds hold for exact nearness. least: +infinity where
+  // there are no samples; greatest: -infinity. The 16 squares of the next larger one lie side by
+  // side, row by row.
+  struct Bounds {
+    std::vector<float> least, greatest;
+  };
+  int width = 0, height = 0;  // pixels
+  int blocks_wide = 0, blocks_high = 0;
+  Bounds tiles, patches;        // blocks follow row by row
+  Bounds blocks;                // fields follow row by row
+  Bounds fields;                // squares of 4 x 4 fields follow row by row
+  std::vector<float> nearness;  // 64 a tile, row-major; +infinity outside the picture
+};
+
 struct Receivers {
   View view;
   // Row-major, row 0 at the top, width * height each.
@@ -37,8 +58,10 @@ struct Receivers {
   bool casters_in_front =
       false;  // some caster does not receive: rays may cross casters before they reach their sample
   bool receivers_not_casting = false;
-  LeastCells
-      cells;  // of nearness; without levels: not made yet. Whoever changes nearness empties it.
+  // Of nearness, made with it for the views that need them most: cells for parallel ones, tiles for
+  // cameras. Without levels, or of width 0: not made yet. Whoever changes nearness empties both.
+  LeastCells cells;
+  NearnessTiles tiles;
 };
 
 }  // namespace gnomon

@@ -1,0 +1,139 @@
+#include <gnomon/raster/count_bands.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <gnomon/raster/fill_strips.h>
+
+namespace gnomon {
+namespace {
+
+static_assert(kBandRows <= kStripRowsMax);
+static_assert(kBandRows % (1 << kCellShift) == 0);  // whole cells
+
+// Rounding of nearness in double and of the sample's own to float, as a share of it.
+constexpr double kNearnessRoundoff = 0x1p-20;
+
+}  // namespace
+
+BandCounter::BandCounter(const Casters& casters, const Receivers& receivers, const ViewSetup& view,
+                         BandMemory& memory, int band)
+    : casters_(casters),
+      receivers_(receivers),
+      view_(view),
+      memory_(memory),
+      band_(static_cast<std::size_t>(band)) {
+  memory_.first_row = band * kBandRows;
+  memory_.rows = std::min(kBandRows, receivers.view.height - memory_.first_row);
+  memory_.filled = false;
+}
+
+CountRect BandCounter::counts(const LightSetup& s, int light) {
+  const int width = receivers_.view.width, stride = width + kQuadPadding;
+  memory_.rows_of_counts.assign(
+      static_cast<std::size_t>(memory_.rows) * static_cast<std::size_t>(stride), 0);
+  std::int32_t* counts = memory_.rows_of_counts.data();
+  if (fill(s)) {
+    take_counts(memory_.counts.get(), memory_.stride, width, memory_.rows, counts, stride);
+  }
+  if (!s.unlit.empty()) {
+    for (int row = 0; row < memory_.rows; ++row) {
+      const std::uint32_t* triangle =
+          receivers_.triangle.data() + static_cast<std::ptrdiff_t>(memory_.first_row + row) * width;
+      std::int32_t* c = counts + static_cast<std::ptrdiff_t>(row) * stride;
+      for (int x = 0; x < width; ++x) {
+        if (triangle[x] != kNoTriangle && s.unlit[triangle[x]] != 0) c[x] = std::max(c[x], 1);
+      }
+    }
+  }
+  return {light, 0, memory_.first_row, width, memory_.rows, stride, counts};
+}
+
+void BandCounter::mask(const LightSetup& s, std::uint8_t* to) {
+  const int width = receivers_.view.width;
+  to += static_cast<std::ptrdiff_t>(memory_.first_row) * width;
+  if (!s.unlit.empty()) {
+    const CountRect c = counts(s, 0);
+    for (int row = 0; row < c.rows; ++row, to += width) {
+      const std::int32_t* from = c.counts + static_cast<std::ptrdiff_t>(row) * c.stride;
+      for (int x = 0; x < width; ++x) to[x] = from[x] > 0 ? 1 : 0;
+    }
+  } else if (fill(s)) {
+    take_mask(memory_.counts.get(), memory_.stride, width, memory_.rows, to, width);
+  } else {
+    std::fill_n(to, static_cast<std::ptrdiff_t>(memory_.rows) * width, std::uint8_t{0});
+  }
+}
+
+// False if nothing was added to the interleaved counts. C(e) is 0 wherever there are strips.
+bool BandCounter::fill(const LightSetup& s) {
+  const std::span<const std::uint32_t> selected = s.strip_bins.of(band_);
+  const std::span<const std::uint32_t> polygons = s.bins.of(band_);
+  if (selected.empty() && polygons.empty()) return false;
+  need_nearness();
+  ExactDecisions exact(casters_, view_, receivers_, s);
+  StripJob job;
+  job.strips = s.strips.data();
+  job.selected = selected.data();
+  job.count = selected.size();
+  job.slope = static_cast<float>(s.strip_light.k);
+  job.first_row = memory_.first_row;
+  job.rows = memory_.rows;
+  job.nearness = memory_.nearness.get();
+  job.counts = memory_.counts.get();
+  job.stride = memory_.stride;
+  job.exact = &exact;
+  fill_strips(job);
+  for (const std::uint32_t index : polygons) fill_polygon(s.polygons[index], exact);
+  stats.spans += exact.spans;
+  stats.depths += exact.depths;
+  stats.close += exact.close;
+  return true;
+}
+
+// Sample by sample, in double.
+void BandCounter::fill_polygon(const Polygon& p, ExactDecisions& exact) {
+  const BandMemory& m = memory_;
+  const int width = receivers_.view.width;
+  const int end = std::min(p.end_row, m.first_row + m.rows);
+  for (int row = std::max(p.first_row, m.first_row); row < end; ++row) {
+    bool undecided = false;
+    Span span = widest_span(p, row, width, undecided);
+    if (span.begin >= span.end) continue;
+    if (undecided) span = exact.span(p, row);
+    const double at_row = p.g.c + p.g.b * (row + kPixelCentre);
+    const std::size_t base = static_cast<std::size_t>((row - m.first_row) / kQuadRows) * m.stride +
+                             static_cast<std::size_t>((row - m.first_row) % kQuadRows);
+    for (int x = span.begin; x < span.end; ++x) {
+      const std::size_t k = base + static_cast<std::size_t>(x) * kQuadRows;
+      const double nearness = at_row + p.g.a * (x + kPixelCentre);
+      const double difference = nearness - static_cast<double>(m.nearness[k]);
+      const double error =
+          (static_cast<double>(p.error_absolute) + receivers_.nearness_floor +
+           (static_cast<double>(p.error_relative) + kNearnessRoundoff) * std::fabs(nearness)) *
+          (1 + 0x1p-20);
+      const bool sure = std::fabs(difference) > error;  // false for NaN
+      if (sure ? difference > 0 : exact.in_front(p, x, row)) m.counts[k] += p.add;
+    }
+  }
+}
+
+void BandCounter::need_nearness() {
+  BandMemory& m = memory_;
+  if (m.filled) return;
+  m.filled = true;
+  const int width = receivers_.view.width;
+  if (!m.nearness) {
+    m.stride = quad_stride(width);
+    const std::size_t n = static_cast<std::size_t>(kBandRows / kQuadRows) * m.stride;
+    m.nearness = hwy::AllocateAligned<float>(n);
+    m.counts = hwy::AllocateAligned<std::int32_t>(n);
+    std::fill_n(m.nearness.get(), n, 0.0F);
+    std::fill_n(m.counts.get(), n, 0);
+  }
+  interleave_rows(receivers_.nearness.data() +
+                      static_cast<std::size_t>(m.first_row) * static_cast<std::size_t>(width),
+                  width, m.rows, m.nearness.get(), m.stride);
+}
+
+}  // namespace gnomon

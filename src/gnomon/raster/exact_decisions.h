@@ -1,0 +1,55 @@
+// What the filling loops ask where float cannot tell: the predicates of view/predicates.h, for the
+// strips, polygons and sides of one light. Remembers the last answers; one object a thread.
+#pragma once
+
+#include <vector>
+
+#include <gnomon/raster/fill_strips.h>
+#include <gnomon/raster/fill_tiles.h>
+#include <gnomon/raster/light_setup.h>
+
+namespace gnomon {
+
+class ExactDecisions final : public ExactStripDecisions, public ExactSideDecisions {
+ public:
+  // All of them must outlive it.
+  ExactDecisions(const Casters& casters, const ViewSetup& view, const Receivers& receivers,
+                 const LightSetup& light)
+      : casters_(casters), view_(view), receivers_(receivers), light_(light) {}
+
+  Span span(const Strip& s, int row) override;
+  bool in_front(const Strip& s, int column, int row) override;
+  // Of light.polygons.
+  Span span(const Polygon& p, int row);
+  bool in_front(const Polygon& p, int column, int row);
+  bool covers(const Side& s, int column, int row) override;
+  bool in_front(const Side& s, int column, int row) override;
+
+  ExactStats spans, depths;
+  std::uint64_t close = 0;  // samples that left the float filter
+
+ private:
+  const Polygon& polygon(const Strip& s);
+  Corners corners(const Side& s) const;
+  // `face`: whose corners these are.
+  bool in_front(const void* face, const Corners& c, int facing, int column, int row);
+
+  // A receiver in the face's plane: the answer is one for all pixels (docs/exactness.md).
+  struct InPlane {
+    std::uint32_t triangle;
+    bool in_front;
+  };
+
+  const Casters& casters_;
+  const ViewSetup& view_;
+  const Receivers& receivers_;
+  const LightSetup& light_;
+  const Strip* strip_ = nullptr;
+  Polygon of_strip_;  // what it stands for
+  std::uint32_t last_triangle_ = kNoTriangle;
+  int last_facing_ = 0;
+  const void* last_face_ = nullptr;
+  std::vector<InPlane> in_plane_;  // of last_face_
+};
+
+}  // namespace gnomon

@@ -1,0 +1,215 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <gnomon/raster/side.h>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "gnomon/raster/make_sides.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace gnomon {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+constexpr std::size_t kSideLanes = 8;
+using D = hn::CappedTag<double, kSideLanes>;
+using V = hn::Vec<D>;
+using M = hn::Mask<D>;
+
+// Rounding of scaling a linear function and of evaluating it in double: fewer roundings.
+constexpr double kRoundoff = 16 * kUnitRoundoff;
+// Adding a few bounds, and rounding them to float.
+constexpr double kUpwards = 1 + 0x1p-20;
+
+HWY_INLINE V Set(double x) { return hn::Set(D(), x); }
+
+struct Corners3 {
+  V x, y, w, z;
+};
+struct Line {
+  V a, b, c;
+};
+// In the order of operations of line_through(), whose error bounds hold.
+HWY_INLINE Line LineThrough(const Corners3& p, const Corners3& r) {
+  return {hn::Sub(hn::Mul(p.y, r.w), hn::Mul(p.w, r.y)),
+          hn::Sub(hn::Mul(p.w, r.x), hn::Mul(p.x, r.w)),
+          hn::Sub(hn::Mul(p.x, r.y), hn::Mul(p.y, r.x))};
+}
+HWY_INLINE V Weighted(V p, V a, V q, V b, V r, V c) {
+  return hn::Add(hn::Add(hn::Mul(p, a), hn::Mul(q, b)), hn::Mul(r, c));
+}
+
+// source.take(i, corners): pointers to its three points; source.id(i); source.weight(i).
+template <class Source>
+std::size_t Make(const SideSetup& s, const Source& source, std::size_t n, bool caster, Side* out) {
+  const D d;
+  const std::size_t lanes = hn::Lanes(d);
+  const double width = s.space->width, height = s.space->height;
+  const V zero = hn::Zero(d), one = Set(1), w = Set(width), h = Set(height);
+  std::size_t made = 0;
+  HWY_ALIGN double at[12][kSideLanes];
+  HWY_ALIGN double a[4][kSideLanes], b[4][kSideLanes], c[4][kSideLanes], slack[4][kSideLanes],
+      relative[kSideLanes], keep[kSideLanes];
+  HWY_ALIGN double inside[kSideLanes];
+  for (std::size_t begin = 0; begin < n; begin += lanes) {
+    const std::size_t count = std::min(lanes, n - begin);
+    for (std::size_t i = 0; i < lanes; ++i) {
+      const ScreenPoint<double>* p[3];
+      source.take(begin + std::min(i, count - 1), p);
+      for (std::size_t k = 0; k < 3; ++k) {
+        at[4 * k][i] = p[k]->x;
+        at[4 * k + 1][i] = p[k]->y;
+        at[4 * k + 2][i] = p[k]->w;
+        at[4 * k + 3][i] = p[k]->z;
+      }
+    }
+    Corners3 p[3];
+    for (int k = 0; k < 3; ++k) {
+      p[k] = {hn::Load(d, at[4 * k]), hn::Load(d, at[4 * k + 1]), hn::Load(d, at[4 * k + 2]),
+              hn::Load(d, at[4 * k + 3])};
+    }
+    const Line e[3] = {LineThrough(p[0], p[1]), LineThrough(p[1], p[2]), LineThrough(p[2], p[0])};
+    const V f = Weighted(p[2].x, e[0].a, p[2].y, e[0].b, p[2].w, e[0].c);
+    const V na = Weighted(p[0].z, e[1].a, p[1].z, e[2].a, p[2].z, e[0].a),
+            nb = Weighted(p[0].z, e[1].b, p[1].z, e[2].b, p[2].z, e[0].b),
+            nc = Weighted(p[0].z, e[1].c, p[1].z, e[2].c, p[2].z, e[0].c);
+
+    const M certain = hn::Gt(hn::Abs(f), Set(s.errors.f));
+    hn::Store(hn::IfThenElse(hn::Gt(f, zero), one, Set(-1)), d, inside);
+    if (HWY_UNLIKELY(!hn::AllTrue(d, certain))) {
+      HWY_ALIGN double sure[kSideLanes];
+      hn::Store(hn::IfThenElseZero(certain, one), d, sure);
+      for (std::size_t i = 0; i < count; ++i) {
+        if (sure[i] == 0) inside[i] = s.facing(source.id(begin + i)) * s.space->orientation;
+      }
+    }
+    const V sign = hn::Load(d, inside);
+    M kept = hn::Ne(sign, zero);
+    for (int k = 0; k < 3; ++k) {
+      const Linear<double>& error = s.errors.edges[k];
+      const double total = (error.a * width + error.b * height + error.c) * kInflate;
+      const V size = hn::Max(hn::Add(hn::Abs(e[k].a), hn::Abs(e[k].b)),
+                             hn::Mul(hn::Abs(e[k].c), Set(1 / (width + height))));
+      // Where the edge is a point at infinity nothing is known: 0 with a bound.
+      const V scale =
+          hn::IfThenElseZero(hn::Gt(size, Set(1e-200)), hn::Div(one, hn::Max(size, Set(1e-200))));
+      const V scaled = hn::Mul(scale, sign);
+      const V ka = hn::Mul(e[k].a, scaled), kb = hn::Mul(e[k].b, scaled),
+              kc = hn::Mul(e[k].c, scaled);
+      const V bound =
+          hn::Add(hn::Mul(Set(total), scale),
+                  hn::Mul(Set(kRoundoff),
+                          hn::Add(one, hn::Add(hn::Abs(kc), hn::Add(hn::Mul(hn::Abs(ka), w),
+                                                                    hn::Mul(hn::Abs(kb), h))))));
+      const V most =
+          hn::Add(kc, hn::Add(hn::Mul(hn::Max(ka, zero), w), hn::Mul(hn::Max(kb, zero), h)));
+      kept = hn::And(kept, hn::Not(hn::Lt(most, hn::Neg(bound))));
+      hn::Store(ka, d, a[k]);
+      hn::Store(kb, d, b[k]);
+      hn::Store(kc, d, c[k]);
+      hn::Store(bound, d, slack[k]);
+    }
+    const M known = hn::Gt(hn::Abs(f), Set(4 * s.errors.f));  // else its nearness is a guess
+    const V inverse = hn::Div(one, hn::IfThenElse(known, f, one));
+    const V unknown = Set(std::numeric_limits<double>::quiet_NaN());
+    const V ga = hn::IfThenElseZero(known, hn::Mul(na, inverse)),
+            gb = hn::IfThenElseZero(known, hn::Mul(nb, inverse)),
+            gc = hn::IfThenElse(known, hn::Mul(nc, inverse), unknown);
+    const V of_f = hn::Div(one, hn::IfThenElse(known, hn::Sub(hn::Abs(f), Set(s.errors.f)), one));
+    const V reach = hn::Add(hn::Add(hn::Mul(hn::Abs(ga), w), hn::Mul(hn::Abs(gb), h)), hn::Abs(gc));
+    const V absolute =
+        hn::Add(hn::Mul(Set(s.errors.n * kInflate), of_f), hn::Mul(Set(kRoundoff), reach));
+    const V share = hn::Mul(Set(s.errors.f * kInflate), of_f);
+    const V nearest =
+        hn::Add(gc, hn::Add(hn::Mul(hn::Max(ga, zero), w), hn::Mul(hn::Max(gb, zero), h)));
+    const V error = hn::Add(absolute, hn::Mul(share, hn::Abs(nearest)));
+    kept = hn::And(kept, hn::Not(hn::Lt(hn::Add(nearest, error), Set(s.least_nearness))));
+    if (hn::AllFalse(d, kept)) continue;
+    hn::Store(hn::IfThenElseZero(kept, one), d, keep);
+    hn::Store(ga, d, a[3]);
+    hn::Store(gb, d, b[3]);
+    hn::Store(gc, d, c[3]);
+    hn::Store(hn::Mul(hn::Add(absolute, Set(s.nearness_floor)), Set(kUpwards)), d, slack[3]);
+    hn::Store(hn::Mul(share, Set(kUpwards)), d, relative);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (keep[i] == 0) continue;
+      Side& side = out[made++];
+      for (int k = 0; k < 4; ++k) {
+        side.a[k] = a[k][i];
+        side.b[k] = b[k][i];
+        side.c[k] = c[k][i];
+        side.slack[k] = rounded_up(slack[k][i]);
+      }
+      side.relative = rounded_up(relative[i]);
+      side.facing = static_cast<std::int8_t>(inside[i] * s.space->orientation);
+      side.id = source.id(begin + i);
+      side.add = source.weight(begin + i) * side.facing;
+      side.caster = caster;
+    }
+  }
+  return made;
+}
+
+struct EdgeSource {
+  const ScreenPoint<double>* points;
+  const SilhouetteEdge* edges;
+  std::size_t begin;
+  const ScreenPoint<double>& minus_light;
+  void take(std::size_t i, const ScreenPoint<double>* (&p)[3]) const {
+    p[0] = &points[edges[begin + i].a];
+    p[1] = &points[edges[begin + i].b];
+    p[2] = &minus_light;
+  }
+  std::uint32_t id(std::size_t i) const { return static_cast<std::uint32_t>(begin + i); }
+  std::int32_t weight(std::size_t i) const { return -edges[begin + i].multiplicity; }
+};
+
+struct CasterSource {
+  const ScreenPoint<double>* points;
+  const Triangle* triangles;
+  const std::uint32_t* ids;
+  const std::int8_t* sides;
+  void take(std::size_t i, const ScreenPoint<double>* (&p)[3]) const {
+    for (std::size_t k = 0; k < 3; ++k) p[k] = &points[triangles[ids[i]][k]];
+  }
+  std::uint32_t id(std::size_t i) const { return ids[i]; }
+  std::int32_t weight(std::size_t i) const { return sides[ids[i]]; }
+};
+
+std::size_t MakeSides(const SideSetup& setup, const SilhouetteEdge* edges, std::size_t begin,
+                      std::size_t end, const ScreenPoint<double>& minus_light, Side* out) {
+  return Make(setup, EdgeSource{setup.points, edges, begin, minus_light}, end - begin, false, out);
+}
+
+std::size_t MakeCasterSides(const SideSetup& setup, const Triangle* triangles,
+                            const std::uint32_t* ids, std::size_t n, const std::int8_t* light_sides,
+                            Side* out) {
+  return Make(setup, CasterSource{setup.points, triangles, ids, light_sides}, n, true, out);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace gnomon
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace gnomon {
+
+HWY_EXPORT(MakeSides);
+HWY_EXPORT(MakeCasterSides);
+
+std::size_t make_sides(const SideSetup& setup, const SilhouetteEdge* edges, std::size_t begin,
+                       std::size_t end, const ScreenPoint<double>& minus_light, Side* out) {
+  return HWY_DYNAMIC_DISPATCH(MakeSides)(setup, edges, begin, end, minus_light, out);
+}
+
+std::size_t make_caster_sides(const SideSetup& setup, const Triangle* triangles,
+                              const std::uint32_t* ids, std::size_t n,
+                              const std::int8_t* light_sides, Side* out) {
+  return HWY_DYNAMIC_DISPATCH(MakeCasterSides)(setup, triangles, ids, n, light_sides, out);
+}
+
+}  // namespace gnomon
+#endif

@@ -1,0 +1,56 @@
+// A triangle of homogeneous corners, ready to be drawn tile by tile: a side of a shadow volume as a
+// camera or a lamp needs it, or a caster. Four linear functions of the pixel; the bounds of what
+// floating point knows of them. Based on: Olano, Greer, Triangle scan conversion using 2D
+// homogeneous coordinates, 1997 (no clipping, corners at infinity allowed).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+
+#include <gnomon/mesh/tri_mesh.h>
+#include <gnomon/raster/polygon.h>
+#include <gnomon/raster/screen_space.h>
+#include <gnomon/silhouette/silhouette.h>
+
+namespace gnomon {
+
+struct alignas(128) Side {
+  // a x + b y + c: of the three edges, positive inside, in about a pixel's unit (|a| + |b| = 1
+  // unless the edge is far from all pixels); then nearness, NaN where nothing is known of it.
+  double a[4], b[4], c[4];
+  // The computed edge functions are wrong by less anywhere in the picture; the comparison of
+  // nearness with a sample's by slack[3] + relative |nearness|. Rounding to float is not in it.
+  float slack[4];
+  float relative = 0;
+  std::int32_t add = 0;    // what a sample behind it adds to its count
+  std::uint32_t id = 0;    // the silhouette edge's index, or the triangle's
+  std::int8_t facing = 0;  // exact sign of |c0; c1; c2; e|, scene coordinates
+  bool caster = false;
+};
+static_assert(sizeof(Side) == 128);
+
+// What sides of one kind share.
+struct SideSetup {
+  const ScreenSpace* space = nullptr;
+  const ScreenPoint<double>* points = nullptr;  // of the vertices
+  EquationErrors errors;                        // of the sides' equations
+  double least_nearness = 0;  // of all samples: what lies behind it everywhere is left out
+  double nearness_floor = 0;  // of the samples
+  // The exact facing of what floating point cannot tell, by id; 0: covers no pixel at all.
+  std::function<int(std::uint32_t)> facing;
+};
+
+// Makes the sides over edges [begin, end): corners a, b and minus_light. Leaves out those that no
+// sample of the picture can lie behind. Returns how many were made; out holds end - begin. In the
+// edges' order.
+std::size_t make_sides(const SideSetup& setup, const SilhouetteEdge* edges, std::size_t begin,
+                       std::size_t end, const ScreenPoint<double>& minus_light, Side* out);
+
+// The same of the triangles ids[0 .. n); add: light_sides[id] times facing.
+std::size_t make_caster_sides(const SideSetup& setup, const Triangle* triangles,
+                              const std::uint32_t* ids, std::size_t n,
+                              const std::int8_t* light_sides, Side* out);
+
+}  // namespace gnomon
