@@ -32,23 +32,51 @@ constexpr float kSquareInFloat = 0x1p-21F;
 
 HWY_INLINE V Set(float x) { return hn::Set(F(), x); }
 
-// A side's four functions per pixel, in float.
+// A side's functions per pixel, in float.
 struct Slopes {
-  float a[4], b[4];
-  float rise[4], fall[4];  // over a pixel: the most and the least that a step right and down adds
-  float size[4];           // |a| + |b|
+  HWY_ALIGN float a[kSideFunctions], b[kSideFunctions];
+  // Over a pixel: the most and the least that a step right and down adds; |a| + |b|.
+  HWY_ALIGN float rise[kSideFunctions], fall[kSideFunctions], size[kSideFunctions];
 };
-Slopes SlopesOf(const Side& s) {
-  Slopes out;
-  for (int k = 0; k < 4; ++k) {
-    const auto a = static_cast<float>(s.a[k]), b = static_cast<float>(s.b[k]);
-    out.a[k] = a;
-    out.b[k] = b;
-    out.rise[k] = std::max(a, 0.0F) + std::max(b, 0.0F);
-    out.fall[k] = std::min(a, 0.0F) + std::min(b, 0.0F);
-    out.size[k] = std::fabs(a) + std::fabs(b);
+
+using D = hn::CappedTag<double, kSideFunctions>;
+using DF = hn::Rebind<float, D>;
+
+void FindSlopes(const Side& s, Slopes& out) {
+  const D d;
+  const DF f;
+  const auto zero = hn::Zero(f);
+  for (std::size_t k = 0; k < kSideFunctions; k += hn::Lanes(d)) {
+    const auto a = hn::DemoteTo(f, hn::Load(d, s.a + k)), b = hn::DemoteTo(f, hn::Load(d, s.b + k));
+    hn::Store(a, f, out.a + k);
+    hn::Store(b, f, out.b + k);
+    hn::Store(hn::Add(hn::Max(a, zero), hn::Max(b, zero)), f, out.rise + k);
+    hn::Store(hn::Add(hn::Min(a, zero), hn::Min(b, zero)), f, out.fall + k);
+    hn::Store(hn::Add(hn::Abs(a), hn::Abs(b)), f, out.size + k);
   }
-  return out;
+}
+
+// A side's functions at the middle of a pixel, and what is wrong with them over squares of
+// 4 `step` pixels from there.
+struct Values {
+  HWY_ALIGN float at[kSideFunctions], error[kSideFunctions];
+};
+
+// `rounding`: of |value| + 16 `step` times the slopes.
+HWY_INLINE void FindValues(const Side& s, const Slopes& slopes, int x, int y, float step,
+                           float rounding, Values& out) {
+  const D d;
+  const DF f;
+  const auto px = hn::Set(d, x + kPixelCentre), py = hn::Set(d, y + kPixelCentre);
+  const auto far = hn::Set(f, 16 * step), round = hn::Set(f, rounding);
+  for (std::size_t k = 0; k < kSideFunctions; k += hn::Lanes(d)) {
+    const auto value = hn::Add(hn::Add(hn::Load(d, s.c + k), hn::Mul(hn::Load(d, s.a + k), px)),
+                               hn::Mul(hn::Load(d, s.b + k), py));
+    const auto at = hn::DemoteTo(f, value);
+    const auto most = hn::Add(hn::Abs(at), hn::Mul(far, hn::Load(f, slopes.size + k)));
+    hn::Store(at, f, out.at + k);
+    hn::Store(hn::Add(hn::Load(f, s.slack + k), hn::Mul(round, most)), f, out.error + k);
+  }
 }
 
 struct Squares {
@@ -62,13 +90,16 @@ HWY_INLINE Squares TestSquares(const Side& s, const Slopes& slopes, int x, int y
   const F f;
   const FI fi;
   const float span = static_cast<float>(side - 1), step = static_cast<float>(side);
-  const double px = x + kPixelCentre, py = y + kPixelCentre;
-  float base[4], error[4];
-  for (int k = 0; k < 4; ++k) {
-    base[k] = static_cast<float>((s.c[k] + s.a[k] * px) + s.b[k] * py);
-    error[k] = s.slack[k] + kSquareInFloat * (std::fabs(base[k]) + 16 * step * slopes.size[k]);
-  }
-  error[3] += s.relative * (std::fabs(base[3]) + 4 * step * slopes.size[3]);
+  Values v;
+  FindValues(s, slopes, x, y, step, kSquareInFloat, v);
+  const auto relative = [&](int k) {
+    return v.error[k] + s.relative * (std::fabs(v.at[k]) + 4 * step * slopes.size[k]);
+  };
+  const float of_nearness = relative(kNearness);
+  const float highest = span * slopes.rise[kNearness] + of_nearness,
+              deepest = span * slopes.fall[kNearness] - of_nearness,
+              upper = span * slopes.rise[kUpper] + relative(kUpper),
+              lower = span * slopes.fall[kLower] - relative(kLower);
   Squares out;
   const std::size_t lanes = hn::Lanes(f);
   for (std::size_t i = 0; i < 16; i += lanes) {
@@ -76,20 +107,24 @@ HWY_INLINE Squares TestSquares(const Side& s, const Slopes& slopes, int x, int y
     const V columns = hn::Mul(hn::ConvertTo(f, hn::And(lane, hn::Set(fi, 3))), Set(step)),
             rows = hn::Mul(hn::ConvertTo(f, hn::ShiftRight<2>(lane)), Set(step));
     const auto at = [&](int k) HWY_ATTR {
-      return hn::Add(Set(base[k]),
+      return hn::Add(Set(v.at[k]),
                      hn::Add(hn::Mul(Set(slopes.a[k]), columns), hn::Mul(Set(slopes.b[k]), rows)));
     };
-    const V e0 = at(0), e1 = at(1), e2 = at(2), g = at(3);
-    const auto outside = [&](V e, int k)
-                             HWY_ATTR { return hn::Lt(e, Set(-error[k] - span * slopes.rise[k])); };
+    const V e0 = at(0), e1 = at(1), e2 = at(2);
+    const auto outside = [&](V e, int k) HWY_ATTR {
+      return hn::Lt(e, Set(-v.error[k] - span * slopes.rise[k]));
+    };
     const auto inside = [&](V e, int k)
-                            HWY_ATTR { return hn::Gt(e, Set(error[k] - span * slopes.fall[k])); };
+                            HWY_ATTR { return hn::Gt(e, Set(v.error[k] - span * slopes.fall[k])); };
     const V lowest = hn::LoadU(f, least + i);
-    const M behind = hn::Or(hn::Lt(hn::Add(g, Set(span * slopes.rise[3] + error[3])), lowest),
+    const V g = at(kNearness);
+    const M behind = hn::Or(hn::Or(hn::Lt(hn::Add(g, Set(highest)), lowest),
+                                   hn::Lt(hn::Add(at(kUpper), Set(upper)), lowest)),
                             hn::Eq(lowest, Set(std::numeric_limits<float>::infinity())));
     const M passed = hn::Or(hn::Or(outside(e0, 0), outside(e1, 1)), hn::Or(outside(e2, 2), behind));
-    const M front =
-        hn::Gt(hn::Add(g, Set(span * slopes.fall[3] - error[3])), hn::LoadU(f, greatest + i));
+    const V most = hn::LoadU(f, greatest + i);
+    const M front = hn::Or(hn::Gt(hn::Add(g, Set(deepest)), most),
+                           hn::Gt(hn::Add(at(kLower), Set(lower)), most));
     const M covered = hn::And(hn::And(inside(e0, 0), inside(e1, 1)), inside(e2, 2));
     const M whole = hn::AndNot(passed, hn::And(front, covered));
     const M some = hn::Not(hn::Or(passed, whole));
@@ -120,7 +155,8 @@ void FindBlocks(const Side* sides, std::size_t begin, std::size_t end, const Nea
   const std::size_t roots = tiles.fields.least.size() / 16;
   for (std::size_t i = begin; i < end; ++i) {
     const Side& s = sides[i];
-    const Slopes slopes = SlopesOf(s);
+    Slopes slopes;
+    FindSlopes(s, slopes);
     // The picture may end before the square does.
     const auto add_whole = [&](int bx, int by) {
       if (bx < tiles.blocks_wide && by < tiles.blocks_high)
@@ -193,16 +229,13 @@ HWY_INLINE void FillTile(const TileJob& t, const Slopes& slopes) {
   const Side& s = t.side;
   const int lanes = static_cast<int>(hn::Lanes(f)), columns = std::min(lanes, kTile),
             rows = lanes / columns;
-  const double px = t.column + kPixelCentre, py = t.row + kPixelCentre;
-  float base[4], error[4];
-  for (int k = 0; k < 4; ++k) {
-    base[k] = static_cast<float>((s.c[k] + s.a[k] * px) + s.b[k] * py);
-    error[k] = s.slack[k] + kEdgeInFloat * (std::fabs(base[k]) + 16 * slopes.size[k]);
-  }
-  error[3] =
-      s.slack[3] + (s.relative + kNearnessInFloat) * (std::fabs(base[3]) + 16 * slopes.size[3]);
-  const V error0 = Set(error[0]), error1 = Set(error[1]), error2 = Set(error[2]),
-          error3 = Set(error[3]);
+  Values v;
+  FindValues(s, slopes, t.column, t.row, 1, kEdgeInFloat, v);
+  const float nearness_error =
+      s.slack[kNearness] +
+      (s.relative + kNearnessInFloat) * (std::fabs(v.at[kNearness]) + 16 * slopes.size[kNearness]);
+  const V error0 = Set(v.error[0]), error1 = Set(v.error[1]), error2 = Set(v.error[2]),
+          error3 = Set(nearness_error);
   const auto lane = hn::Iota(fi, 0);
   const V lane_row = hn::ConvertTo(f, hn::ShiftRight<3>(lane)),
           lane_column = hn::ConvertTo(f, hn::And(lane, hn::Set(fi, 7)));
@@ -215,7 +248,7 @@ HWY_INLINE void FillTile(const TileJob& t, const Slopes& slopes) {
     const V off0 = off(0), off1 = off(1), off2 = off(2), off3 = off(3);
     for (int y = 0; y < kTile; y += rows) {
       const auto at = [&](V o, int k) HWY_ATTR {
-        return hn::Add(Set(base[k] + slopes.b[k] * static_cast<float>(y)), o);
+        return hn::Add(Set(v.at[k] + slopes.b[k] * static_cast<float>(y)), o);
       };
       const V e0 = at(off0, 0), e1 = at(off1, 1), e2 = at(off2, 2), g = at(off3, 3);
       const int index = y * kTile + x;
@@ -243,7 +276,8 @@ void FillBlock(const BlockJob& job) {
   BlockCounts& c = *job.counts;
   for (std::size_t i = 0; i < job.count; ++i) {
     const Side& s = job.sides[job.selected[i]];
-    const Slopes slopes = SlopesOf(s);
+    Slopes slopes;
+    FindSlopes(s, slopes);
     Squares patches = TestSquares(s, slopes, x0, y0, kPatch, n.patches.least.data() + first_patch,
                                   n.patches.greatest.data() + first_patch);
     while (patches.whole != 0) c.patches[TakeBit(patches.whole)] += s.add;

@@ -21,8 +21,8 @@ using M = hn::Mask<D>;
 
 // Rounding of scaling a linear function and of evaluating it in double: fewer roundings.
 constexpr double kRoundoff = 16 * kUnitRoundoff;
-// Adding a few bounds, and rounding them to float.
-constexpr double kUpwards = 1 + 0x1p-20;
+// An edge function below it is taken for that of a point.
+constexpr double kLeastSize = 1e-200;
 
 HWY_INLINE V Set(double x) { return hn::Set(D(), x); }
 
@@ -42,6 +42,20 @@ HWY_INLINE V Weighted(V p, V a, V q, V b, V r, V c) {
   return hn::Add(hn::Add(hn::Mul(p, a), hn::Mul(q, b)), hn::Mul(r, c));
 }
 
+// Bound of the terms' magnitudes in the picture; the highest value in it.
+HWY_INLINE V Reach(const Line& l, V w, V h) {
+  return hn::Add(hn::Add(hn::Mul(hn::Abs(l.a), w), hn::Mul(hn::Abs(l.b), h)), hn::Abs(l.c));
+}
+HWY_INLINE V Highest(const Line& l, V w, V h) {
+  const V zero = hn::Zero(D());
+  return hn::Add(l.c, hn::Add(hn::Mul(hn::Max(l.a, zero), w), hn::Mul(hn::Max(l.b, zero), h)));
+}
+// As floats, not below x >= 0: rounding to nearest takes away at most 2^-24 of it.
+HWY_INLINE void StoreNotBelow(V x, float* out) {
+  const hn::Rebind<float, D> f;
+  hn::Store(hn::DemoteTo(f, hn::Add(hn::Mul(x, Set(1 + 0x1p-20)), Set(1e-30))), f, out);
+}
+
 // source.take(i, corners): pointers to its three points; source.id(i); source.weight(i).
 template <class Source>
 std::size_t Make(const SideSetup& s, const Source& source, std::size_t n, bool caster, Side* out) {
@@ -51,8 +65,8 @@ std::size_t Make(const SideSetup& s, const Source& source, std::size_t n, bool c
   const V zero = hn::Zero(d), one = Set(1), w = Set(width), h = Set(height);
   std::size_t made = 0;
   HWY_ALIGN double at[12][kSideLanes];
-  HWY_ALIGN double a[4][kSideLanes], b[4][kSideLanes], c[4][kSideLanes], slack[4][kSideLanes],
-      relative[kSideLanes], keep[kSideLanes];
+  HWY_ALIGN double a[6][kSideLanes], b[6][kSideLanes], c[6][kSideLanes], keep[kSideLanes];
+  HWY_ALIGN float slack[6][kSideLanes], relative[kSideLanes];
   HWY_ALIGN double inside[kSideLanes];
   for (std::size_t begin = 0; begin < n; begin += lanes) {
     const std::size_t count = std::min(lanes, n - begin);
@@ -88,62 +102,91 @@ std::size_t Make(const SideSetup& s, const Source& source, std::size_t n, bool c
     }
     const V sign = hn::Load(d, inside);
     M kept = hn::Ne(sign, zero);
+    Line edges[3];  // positive inside, scaled
+    V bounds[3];
     for (int k = 0; k < 3; ++k) {
       const Linear<double>& error = s.errors.edges[k];
       const double total = (error.a * width + error.b * height + error.c) * kInflate;
       const V size = hn::Max(hn::Add(hn::Abs(e[k].a), hn::Abs(e[k].b)),
                              hn::Mul(hn::Abs(e[k].c), Set(1 / (width + height))));
-      // Where the edge is a point at infinity nothing is known: 0 with a bound.
-      const V scale =
-          hn::IfThenElseZero(hn::Gt(size, Set(1e-200)), hn::Div(one, hn::Max(size, Set(1e-200))));
+      // Where the edge is a point nothing is known: 0 with a bound.
+      const V scale = hn::IfThenElseZero(hn::Gt(size, Set(kLeastSize)),
+                                         hn::Div(one, hn::Max(size, Set(kLeastSize))));
       const V scaled = hn::Mul(scale, sign);
-      const V ka = hn::Mul(e[k].a, scaled), kb = hn::Mul(e[k].b, scaled),
-              kc = hn::Mul(e[k].c, scaled);
-      const V bound =
-          hn::Add(hn::Mul(Set(total), scale),
-                  hn::Mul(Set(kRoundoff),
-                          hn::Add(one, hn::Add(hn::Abs(kc), hn::Add(hn::Mul(hn::Abs(ka), w),
-                                                                    hn::Mul(hn::Abs(kb), h))))));
-      const V most =
-          hn::Add(kc, hn::Add(hn::Mul(hn::Max(ka, zero), w), hn::Mul(hn::Max(kb, zero), h)));
-      kept = hn::And(kept, hn::Not(hn::Lt(most, hn::Neg(bound))));
-      hn::Store(ka, d, a[k]);
-      hn::Store(kb, d, b[k]);
-      hn::Store(kc, d, c[k]);
-      hn::Store(bound, d, slack[k]);
+      const Line l{hn::Mul(e[k].a, scaled), hn::Mul(e[k].b, scaled), hn::Mul(e[k].c, scaled)};
+      bounds[k] = hn::Add(hn::Mul(Set(total), scale),
+                          hn::Mul(Set(kRoundoff), hn::Add(one, Reach(l, w, h))));
+      kept = hn::And(kept, hn::Not(hn::Lt(Highest(l, w, h), hn::Neg(bounds[k]))));
+      edges[k] = l;
     }
     const M known = hn::Gt(hn::Abs(f), Set(4 * s.errors.f));  // else its nearness is a guess
     const V inverse = hn::Div(one, hn::IfThenElse(known, f, one));
     const V unknown = Set(std::numeric_limits<double>::quiet_NaN());
-    const V ga = hn::IfThenElseZero(known, hn::Mul(na, inverse)),
-            gb = hn::IfThenElseZero(known, hn::Mul(nb, inverse)),
-            gc = hn::IfThenElse(known, hn::Mul(nc, inverse), unknown);
+    const Line g{hn::IfThenElseZero(known, hn::Mul(na, inverse)),
+                 hn::IfThenElseZero(known, hn::Mul(nb, inverse)),
+                 hn::IfThenElse(known, hn::Mul(nc, inverse), unknown)};
     const V of_f = hn::Div(one, hn::IfThenElse(known, hn::Sub(hn::Abs(f), Set(s.errors.f)), one));
-    const V reach = hn::Add(hn::Add(hn::Mul(hn::Abs(ga), w), hn::Mul(hn::Abs(gb), h)), hn::Abs(gc));
     const V absolute =
-        hn::Add(hn::Mul(Set(s.errors.n * kInflate), of_f), hn::Mul(Set(kRoundoff), reach));
+        hn::Add(hn::Mul(Set(s.errors.n * kInflate), of_f), hn::Mul(Set(kRoundoff), Reach(g, w, h)));
     const V share = hn::Mul(Set(s.errors.f * kInflate), of_f);
-    const V nearest =
-        hn::Add(gc, hn::Add(hn::Mul(hn::Max(ga, zero), w), hn::Mul(hn::Max(gb, zero), h)));
-    const V error = hn::Add(absolute, hn::Mul(share, hn::Abs(nearest)));
+    // nearness + t edge >= nearness inside for t >= 0; and - t edge <= nearness.
+    Line upper = g, lower = g;
+    V upper_bound = absolute, lower_bound = absolute;
+    V least_upper = hn::Add(hn::Abs(g.a), hn::Abs(g.b)), least_lower = least_upper;
+    for (int k = 0; k < 3; ++k) {
+      const Line& l = edges[k];
+      const V square = hn::Add(hn::Mul(l.a, l.a), hn::Mul(l.b, l.b));
+      const M steep = hn::Gt(square, Set(0x1p-10));
+      const V along =
+          hn::IfThenElseZero(steep, hn::Div(hn::Add(hn::Mul(g.a, l.a), hn::Mul(g.b, l.b)),
+                                            hn::IfThenElse(steep, square, one)));
+      const auto try_bound = [&](Line& best, V& bound, V& least, V t, V factor) HWY_ATTR {
+        const Line tilted{hn::Add(g.a, hn::Mul(factor, l.a)), hn::Add(g.b, hn::Mul(factor, l.b)),
+                          hn::Add(g.c, hn::Mul(factor, l.c))};
+        const V steepness = hn::Add(hn::Abs(tilted.a), hn::Abs(tilted.b));
+        const M better = hn::And(hn::Gt(t, zero), hn::Lt(steepness, least));
+        least = hn::IfThenElse(better, steepness, least);
+        best = {hn::IfThenElse(better, tilted.a, best.a), hn::IfThenElse(better, tilted.b, best.b),
+                hn::IfThenElse(better, tilted.c, best.c)};
+        const V more = hn::Add(
+            hn::Mul(t, bounds[k]),
+            hn::Mul(Set(kRoundoff), hn::Add(hn::Mul(t, Reach(l, w, h)), Reach(tilted, w, h))));
+        bound = hn::IfThenElse(better, hn::Add(absolute, more), bound);
+      };
+      try_bound(upper, upper_bound, least_upper, hn::Neg(along), hn::Neg(along));
+      try_bound(lower, lower_bound, least_lower, along, hn::Neg(along));
+    }
+    const V nearest = Highest(upper, w, h);
+    const V error = hn::Add(upper_bound, hn::Mul(share, hn::Abs(nearest)));
     kept = hn::And(kept, hn::Not(hn::Lt(hn::Add(nearest, error), Set(s.least_nearness))));
     if (hn::AllFalse(d, kept)) continue;
     hn::Store(hn::IfThenElseZero(kept, one), d, keep);
-    hn::Store(ga, d, a[3]);
-    hn::Store(gb, d, b[3]);
-    hn::Store(gc, d, c[3]);
-    hn::Store(hn::Mul(hn::Add(absolute, Set(s.nearness_floor)), Set(kUpwards)), d, slack[3]);
-    hn::Store(hn::Mul(share, Set(kUpwards)), d, relative);
+    const auto store = [&](int k, const Line& l, V bound) HWY_ATTR {
+      hn::Store(l.a, d, a[k]);
+      hn::Store(l.b, d, b[k]);
+      hn::Store(l.c, d, c[k]);
+      StoreNotBelow(bound, slack[k]);
+    };
+    for (int k = 0; k < 3; ++k) store(kEdge + k, edges[k], bounds[k]);
+    const V floor = Set(s.nearness_floor);
+    store(kNearness, g, hn::Add(absolute, floor));
+    store(kUpper, upper, upper_bound);  // squares' bounds of nearness hold exactly
+    store(kLower, lower, lower_bound);
+    StoreNotBelow(share, relative);
     for (std::size_t i = 0; i < count; ++i) {
       if (keep[i] == 0) continue;
       Side& side = out[made++];
-      for (int k = 0; k < 4; ++k) {
+      for (int k = 0; k < 6; ++k) {
         side.a[k] = a[k][i];
         side.b[k] = b[k][i];
         side.c[k] = c[k][i];
-        side.slack[k] = rounded_up(slack[k][i]);
+        side.slack[k] = slack[k][i];
       }
-      side.relative = rounded_up(relative[i]);
+      for (int k = 6; k < kSideFunctions; ++k) {
+        side.a[k] = side.b[k] = side.c[k] = 0;
+        side.slack[k] = 0;
+      }
+      side.relative = relative[i];
       side.facing = static_cast<std::int8_t>(inside[i] * s.space->orientation);
       side.id = source.id(begin + i);
       side.add = source.weight(begin + i) * side.facing;

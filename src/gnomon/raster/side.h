@@ -16,20 +16,26 @@
 
 namespace gnomon {
 
-struct alignas(128) Side {
-  // a x + b y + c: of the three edges, positive inside, in about a pixel's unit (|a| + |b| = 1
-  // unless the edge is far from all pixels); then nearness, NaN where nothing is known of it.
-  double a[4], b[4], c[4];
-  // The computed edge functions are wrong by less anywhere in the picture; the comparison of
-  // nearness with a sample's by slack[3] + relative |nearness|. Rounding to float is not in it.
-  float slack[4];
+// What a side's linear functions a x + b y + c say, by index. kEdge and the two after it: the edge
+// functions, positive inside, in about a pixel's unit (|a| + |b| = 1 unless the edge is far from
+// all pixels). kNearness: of the side's plane; NaN where nothing is known of it. kUpper and kLower:
+// bounds of nearness inside the side, which vary less than it does: nearness and a multiple of the
+// edge function across which it varies most, so that a side seen nearly edge-on is known well in
+// large squares too.
+enum SideFunction { kEdge = 0, kNearness = 3, kUpper = 4, kLower = 5, kSideFunctions = 8 };
+
+struct alignas(64) Side {
+  double a[kSideFunctions], b[kSideFunctions], c[kSideFunctions];
+  // How far the computed functions are off anywhere in the picture, without rounding to float;
+  // those of nearness by `relative` of their value more, and compared with a sample's.
+  float slack[kSideFunctions];
   float relative = 0;
   std::int32_t add = 0;    // what a sample behind it adds to its count
   std::uint32_t id = 0;    // the silhouette edge's index, or the triangle's
   std::int8_t facing = 0;  // exact sign of |c0; c1; c2; e|, scene coordinates
   bool caster = false;
 };
-static_assert(sizeof(Side) == 128);
+static_assert(sizeof(Side) == 256);
 
 // What sides of one kind share.
 struct SideSetup {
