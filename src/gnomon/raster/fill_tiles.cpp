@@ -32,164 +32,156 @@ constexpr float kSquareInFloat = 0x1p-21F;
 
 HWY_INLINE V Set(float x) { return hn::Set(F(), x); }
 
-// A side's functions per pixel, in float.
-struct Slopes {
-  HWY_ALIGN float a[kSideFunctions], b[kSideFunctions];
-  // Over a pixel: the most and the least that a step right and down adds; |a| + |b|.
-  HWY_ALIGN float rise[kSideFunctions], fall[kSideFunctions], size[kSideFunctions];
-};
-
 using D = hn::CappedTag<double, kSideFunctions>;
 using DF = hn::Rebind<float, D>;
 
-void FindSlopes(const Side& s, Slopes& out) {
-  const D d;
-  const DF f;
-  const auto zero = hn::Zero(f);
-  for (std::size_t k = 0; k < kSideFunctions; k += hn::Lanes(d)) {
-    const auto a = hn::DemoteTo(f, hn::Load(d, s.a + k)), b = hn::DemoteTo(f, hn::Load(d, s.b + k));
-    hn::Store(a, f, out.a + k);
-    hn::Store(b, f, out.b + k);
-    hn::Store(hn::Add(hn::Max(a, zero), hn::Max(b, zero)), f, out.rise + k);
-    hn::Store(hn::Add(hn::Min(a, zero), hn::Min(b, zero)), f, out.fall + k);
-    hn::Store(hn::Add(hn::Abs(a), hn::Abs(b)), f, out.size + k);
-  }
-}
-
-// A side's functions at the middle of a pixel, and what is wrong with them over squares of
-// 4 `step` pixels from there.
-struct Values {
-  HWY_ALIGN float at[kSideFunctions], error[kSideFunctions];
+// A side's functions over squares of `pixels` pixels from a place, in float: their values at the
+// middle of its first pixel and their slopes; what is wrong with them; what, added to a value, is
+// above the function in the whole square, and what, subtracted, is below it.
+struct Local {
+  HWY_ALIGN float at[kSideFunctions], a[kSideFunctions], b[kSideFunctions];
+  HWY_ALIGN float error[kSideFunctions], up[kSideFunctions], down[kSideFunctions];
 };
 
-// `rounding`: of |value| + 16 `step` times the slopes.
-HWY_INLINE void FindValues(const Side& s, const Slopes& slopes, int x, int y, float step,
-                           float rounding, Values& out) {
+HWY_ALIGN constexpr float kOfNearness[kSideFunctions] = {0, 0, 0, 1, 1, 1, 0, 0};
+
+// `rounding`: of |value| + 16 `pixels` times the slopes.
+HWY_INLINE void FindLocal(const Side& s, int x, int y, float pixels, float rounding, Local& out) {
   const D d;
   const DF f;
   const auto px = hn::Set(d, x + kPixelCentre), py = hn::Set(d, y + kPixelCentre);
-  const auto far = hn::Set(f, 16 * step), round = hn::Set(f, rounding);
+  const auto zero = hn::Zero(f), span = hn::Set(f, pixels - 1), far = hn::Set(f, 16 * pixels),
+             round = hn::Set(f, rounding), relative = hn::Set(f, s.relative);
   for (std::size_t k = 0; k < kSideFunctions; k += hn::Lanes(d)) {
-    const auto value = hn::Add(hn::Add(hn::Load(d, s.c + k), hn::Mul(hn::Load(d, s.a + k), px)),
-                               hn::Mul(hn::Load(d, s.b + k), py));
-    const auto at = hn::DemoteTo(f, value);
-    const auto most = hn::Add(hn::Abs(at), hn::Mul(far, hn::Load(f, slopes.size + k)));
+    const auto a = hn::Load(d, s.a + k), b = hn::Load(d, s.b + k), c = hn::Load(d, s.c + k);
+    const auto at = hn::DemoteTo(f, hn::Add(hn::Add(c, hn::Mul(a, px)), hn::Mul(b, py)));
+    const auto fa = hn::DemoteTo(f, a), fb = hn::DemoteTo(f, b);
+    const auto size = hn::Add(hn::Abs(fa), hn::Abs(fb));
+    const auto share = hn::Add(round, hn::Mul(relative, hn::Load(f, kOfNearness + k)));
+    const auto error =
+        hn::Add(hn::Load(f, s.slack + k), hn::Mul(share, hn::Add(hn::Abs(at), hn::Mul(far, size))));
+    const auto rise = hn::Add(hn::Max(fa, zero), hn::Max(fb, zero)),
+               fall = hn::Add(hn::Min(fa, zero), hn::Min(fb, zero));
     hn::Store(at, f, out.at + k);
-    hn::Store(hn::Add(hn::Load(f, s.slack + k), hn::Mul(round, most)), f, out.error + k);
+    hn::Store(fa, f, out.a + k);
+    hn::Store(fb, f, out.b + k);
+    hn::Store(error, f, out.error + k);
+    hn::Store(hn::Add(error, hn::Mul(span, rise)), f, out.up + k);
+    hn::Store(hn::Sub(error, hn::Mul(span, fall)), f, out.down + k);
   }
 }
 
-struct Squares {
-  std::uint32_t some = 0, whole = 0;  // one bit each; `whole` in none of `some`
-};
-
-// The 16 squares of `side` pixels whose first pixel is (x, y). Those without samples are passed
-// over.
-HWY_INLINE Squares TestSquares(const Side& s, const Slopes& slopes, int x, int y, int side,
-                               const float* least, const float* greatest) {
+// The 16 squares of `side` pixels whose first pixel is (x, y), some lanes at a time: take(index of
+// the first, mask of those that need a closer look, mask of those that the side covers in front of
+// all samples). Squares without samples are in neither.
+template <class Take>
+HWY_INLINE void TestSquares(const Side& s, int x, int y, int side, const float* least,
+                            const float* greatest, Take take) {
   const F f;
   const FI fi;
-  const float span = static_cast<float>(side - 1), step = static_cast<float>(side);
-  Values v;
-  FindValues(s, slopes, x, y, step, kSquareInFloat, v);
-  const auto relative = [&](int k) {
-    return v.error[k] + s.relative * (std::fabs(v.at[k]) + 4 * step * slopes.size[k]);
-  };
-  const float of_nearness = relative(kNearness);
-  const float highest = span * slopes.rise[kNearness] + of_nearness,
-              deepest = span * slopes.fall[kNearness] - of_nearness,
-              upper = span * slopes.rise[kUpper] + relative(kUpper),
-              lower = span * slopes.fall[kLower] - relative(kLower);
-  Squares out;
-  const std::size_t lanes = hn::Lanes(f);
-  for (std::size_t i = 0; i < 16; i += lanes) {
+  const auto step = static_cast<float>(side);
+  Local l;
+  FindLocal(s, x, y, step, kSquareInFloat, l);
+  for (std::size_t i = 0; i < 16; i += hn::Lanes(f)) {
     const auto lane = hn::Iota(fi, static_cast<std::int32_t>(i));
     const V columns = hn::Mul(hn::ConvertTo(f, hn::And(lane, hn::Set(fi, 3))), Set(step)),
             rows = hn::Mul(hn::ConvertTo(f, hn::ShiftRight<2>(lane)), Set(step));
     const auto at = [&](int k) HWY_ATTR {
-      return hn::Add(Set(v.at[k]),
-                     hn::Add(hn::Mul(Set(slopes.a[k]), columns), hn::Mul(Set(slopes.b[k]), rows)));
+      return hn::Add(Set(l.at[k]),
+                     hn::Add(hn::Mul(Set(l.a[k]), columns), hn::Mul(Set(l.b[k]), rows)));
     };
-    const V e0 = at(0), e1 = at(1), e2 = at(2);
-    const auto outside = [&](V e, int k) HWY_ATTR {
-      return hn::Lt(e, Set(-v.error[k] - span * slopes.rise[k]));
-    };
-    const auto inside = [&](V e, int k)
-                            HWY_ATTR { return hn::Gt(e, Set(v.error[k] - span * slopes.fall[k])); };
-    const V lowest = hn::LoadU(f, least + i);
-    const V g = at(kNearness);
-    const M behind = hn::Or(hn::Or(hn::Lt(hn::Add(g, Set(highest)), lowest),
-                                   hn::Lt(hn::Add(at(kUpper), Set(upper)), lowest)),
-                            hn::Eq(lowest, Set(std::numeric_limits<float>::infinity())));
-    const M passed = hn::Or(hn::Or(outside(e0, 0), outside(e1, 1)), hn::Or(outside(e2, 2), behind));
-    const V most = hn::LoadU(f, greatest + i);
-    const M front = hn::Or(hn::Gt(hn::Add(g, Set(deepest)), most),
-                           hn::Gt(hn::Add(at(kLower), Set(lower)), most));
-    const M covered = hn::And(hn::And(inside(e0, 0), inside(e1, 1)), inside(e2, 2));
+    const auto above = [&](V value, int k) HWY_ATTR { return hn::Add(value, Set(l.up[k])); };
+    const auto below = [&](V value, int k) HWY_ATTR { return hn::Sub(value, Set(l.down[k])); };
+    const V zero = hn::Zero(f), lowest = hn::LoadU(f, least + i), most = hn::LoadU(f, greatest + i);
+    const V e0 = at(kEdge), e1 = at(kEdge + 1), e2 = at(kEdge + 2), g = at(kNearness);
+    const M outside =
+        hn::Or(hn::Or(hn::Lt(above(e0, kEdge), zero), hn::Lt(above(e1, kEdge + 1), zero)),
+               hn::Lt(above(e2, kEdge + 2), zero));
+    const M behind = hn::Or(
+        hn::Or(hn::Lt(above(g, kNearness), lowest), hn::Lt(above(at(kUpper), kUpper), lowest)),
+        hn::Eq(lowest, Set(std::numeric_limits<float>::infinity())));
+    const M covered =
+        hn::And(hn::And(hn::Gt(below(e0, kEdge), zero), hn::Gt(below(e1, kEdge + 1), zero)),
+                hn::Gt(below(e2, kEdge + 2), zero));
+    const M front =
+        hn::Or(hn::Gt(below(g, kNearness), most), hn::Gt(below(at(kLower), kLower), most));
+    const M passed = hn::Or(outside, behind);
     const M whole = hn::AndNot(passed, hn::And(front, covered));
-    const M some = hn::Not(hn::Or(passed, whole));
-    std::uint8_t bits[8] = {};
-    std::uint32_t n = 0;
-    hn::StoreMaskBits(f, some, bits);
-    std::memcpy(&n, bits, sizeof(n));
-    out.some |= (n & ((1U << lanes) - 1)) << i;
-    std::memset(bits, 0, sizeof(bits));
-    hn::StoreMaskBits(f, whole, bits);
-    std::memcpy(&n, bits, sizeof(n));
-    out.whole |= (n & ((1U << lanes) - 1)) << i;
+    take(i, hn::RebindMask(fi, hn::Not(hn::Or(passed, whole))), hn::RebindMask(fi, whole));
   }
-  return out;
 }
 
-// Takes the lowest bit off.
-HWY_INLINE std::uint32_t TakeBit(std::uint32_t& bits) {
-  const int k = std::countr_zero(bits);
-  bits &= bits - 1;
-  return static_cast<std::uint32_t>(k);
+// Squares to look at, by number. Each step goes through a list of them and makes the next one, so
+// that what is done for one does not wait for the other.
+constexpr std::size_t kChunk = 256;
+struct List {
+  std::size_t n = 0;
+  std::uint32_t at[kChunk * 16 + 16];  // the last store may be a whole vector
+};
+
+// Appends first + lane for each lane in the mask.
+template <class Mask>
+HWY_INLINE void Append(List& list, std::size_t first, Mask mask) {
+  const FI fi;
+  const hn::RebindToUnsigned<FI> fu;
+  const auto lane = hn::Iota(fi, static_cast<std::int32_t>(first));
+  // Compressing straight into memory is slow on some processors.
+  hn::StoreU(hn::BitCast(fu, hn::Compress(lane, mask)), fu, list.at + list.n);
+  list.n += hn::CountTrue(fi, mask);
+}
+
+// to[lane] += add for each lane in the mask.
+template <class Mask>
+HWY_INLINE void AddTo(std::int32_t* to, Mask mask, std::int32_t add) {
+  const FI fi;
+  hn::StoreU(hn::Add(hn::LoadU(fi, to), hn::IfThenElseZero(mask, hn::Set(fi, add))), fi, to);
 }
 
 void FindBlocks(const Side* sides, std::size_t begin, std::size_t end, const NearnessTiles& tiles,
                 BlockHits& hits) {
+  const FI fi;
   const int fields_wide = (tiles.width + kField - 1) / kField;
   const int roots_wide = (fields_wide + 3) / 4;
   const std::size_t roots = tiles.fields.least.size() / 16;
-  for (std::size_t i = begin; i < end; ++i) {
-    const Side& s = sides[i];
-    Slopes slopes;
-    FindSlopes(s, slopes);
-    // The picture may end before the square does.
-    const auto add_whole = [&](int bx, int by) {
-      if (bx < tiles.blocks_wide && by < tiles.blocks_high)
-        hits.whole.push_back({static_cast<std::uint32_t>(by * tiles.blocks_wide + bx), s.add});
+  List fields, blocks, whole;
+  for (std::size_t root = 0; root < roots; ++root) {
+    const int rx = static_cast<int>(root) % roots_wide * 4,
+              ry = static_cast<int>(root) / roots_wide * 4;
+    // A block of the picture: (side of the chunk, field of the root, block of the field). A field
+    // that is covered altogether is looked at like any other.
+    const auto block_of = [&](std::uint32_t code) {
+      const int field = static_cast<int>(code >> 4) % 16, block = static_cast<int>(code % 16);
+      const int x = (rx + field % 4) * 4 + block % 4, y = (ry + field / 4) * 4 + block / 4;
+      return static_cast<std::uint32_t>(y * tiles.blocks_wide + x);
     };
-    for (std::size_t root = 0; root < roots; ++root) {
-      const int rx = static_cast<int>(root) % roots_wide, ry = static_cast<int>(root) / roots_wide;
-      Squares fields = TestSquares(s, slopes, rx * 4 * kField, ry * 4 * kField, kField,
-                                   tiles.fields.least.data() + root * 16,
-                                   tiles.fields.greatest.data() + root * 16);
-      while (fields.whole != 0) {
-        const auto k = static_cast<int>(TakeBit(fields.whole));
-        const int bx = (rx * 4 + k % 4) * 4, by = (ry * 4 + k / 4) * 4;
-        for (int b = 0; b < 16; ++b) add_whole(bx + b % 4, by + b / 4);
+    for (std::size_t chunk = begin; chunk < end; chunk += kChunk) {
+      fields.n = 0;
+      for (std::size_t i = chunk; i < std::min(end, chunk + kChunk); ++i) {
+        TestSquares(sides[i], rx * kField, ry * kField, kField,
+                    tiles.fields.least.data() + root * 16, tiles.fields.greatest.data() + root * 16,
+                    [&](std::size_t k, auto some, auto all)
+                        HWY_ATTR { Append(fields, (i - chunk) * 16 + k, hn::Or(some, all)); });
       }
-      while (fields.some != 0) {
-        const auto k = static_cast<int>(TakeBit(fields.some));
-        const int fx = rx * 4 + k % 4, fy = ry * 4 + k / 4;
-        const std::size_t first = static_cast<std::size_t>(fy * fields_wide + fx) * 16;
-        Squares blocks =
-            TestSquares(s, slopes, fx * kField, fy * kField, kBlock,
-                        tiles.blocks.least.data() + first, tiles.blocks.greatest.data() + first);
-        while (blocks.whole != 0) {
-          const auto b = static_cast<int>(TakeBit(blocks.whole));
-          add_whole(fx * 4 + b % 4, fy * 4 + b / 4);
+      for (std::size_t from = 0; from < fields.n; from += kChunk) {
+        blocks.n = whole.n = 0;
+        for (std::size_t i = from; i < std::min(fields.n, from + kChunk); ++i) {
+          const std::uint32_t code = fields.at[i];
+          const int x = rx + static_cast<int>(code % 4), y = ry + static_cast<int>(code / 4 % 4);
+          const std::size_t first = static_cast<std::size_t>(y * fields_wide + x) * 16;
+          TestSquares(sides[chunk + code / 16], x * kField, y * kField, kBlock,
+                      tiles.blocks.least.data() + first, tiles.blocks.greatest.data() + first,
+                      [&](std::size_t k, auto some, auto all) HWY_ATTR {
+                        Append(blocks, code * 16 + k, some);
+                        if (HWY_UNLIKELY(!hn::AllFalse(fi, all))) Append(whole, code * 16 + k, all);
+                      });
         }
-        while (blocks.some != 0) {
-          const auto b = static_cast<int>(TakeBit(blocks.some));
-          const int bx = fx * 4 + b % 4, by = fy * 4 + b / 4;
-          if (bx < tiles.blocks_wide && by < tiles.blocks_high) {
-            hits.some.push_back({static_cast<std::uint32_t>(by * tiles.blocks_wide + bx),
-                                 static_cast<std::uint32_t>(i)});
-          }
+        for (std::size_t i = 0; i < blocks.n; ++i) {
+          const std::uint32_t code = blocks.at[i];
+          hits.some.push_back({block_of(code), static_cast<std::uint32_t>(chunk + (code >> 8))});
+        }
+        for (std::size_t i = 0; i < whole.n; ++i) {
+          const std::uint32_t code = whole.at[i];
+          hits.whole.push_back({block_of(code), sides[chunk + (code >> 8)].add});
         }
       }
     }
@@ -223,18 +215,19 @@ HWY_NOINLINE void DecideOpen(const TileJob& t, Mask open, Mask covered, int inde
   }
 }
 
-HWY_INLINE void FillTile(const TileJob& t, const Slopes& slopes) {
+HWY_INLINE void FillTile(const TileJob& t) {
   const F f;
   const FI fi;
   const Side& s = t.side;
   const int lanes = static_cast<int>(hn::Lanes(f)), columns = std::min(lanes, kTile),
             rows = lanes / columns;
-  Values v;
-  FindValues(s, slopes, t.column, t.row, 1, kEdgeInFloat, v);
+  Local l;
+  FindLocal(s, t.column, t.row, 1, kEdgeInFloat, l);
   const float nearness_error =
-      s.slack[kNearness] +
-      (s.relative + kNearnessInFloat) * (std::fabs(v.at[kNearness]) + 16 * slopes.size[kNearness]);
-  const V error0 = Set(v.error[0]), error1 = Set(v.error[1]), error2 = Set(v.error[2]),
+      l.error[kNearness] +
+      kNearnessInFloat * (std::fabs(l.at[kNearness]) +
+                          16 * (std::fabs(l.a[kNearness]) + std::fabs(l.b[kNearness])));
+  const V error0 = Set(l.error[0]), error1 = Set(l.error[1]), error2 = Set(l.error[2]),
           error3 = Set(nearness_error);
   const auto lane = hn::Iota(fi, 0);
   const V lane_row = hn::ConvertTo(f, hn::ShiftRight<3>(lane)),
@@ -243,12 +236,12 @@ HWY_INLINE void FillTile(const TileJob& t, const Slopes& slopes) {
   for (int x = 0; x < kTile; x += columns) {
     const V column = hn::Add(lane_column, Set(static_cast<float>(x)));
     const auto off = [&](int k) HWY_ATTR {
-      return hn::Add(hn::Mul(Set(slopes.a[k]), column), hn::Mul(Set(slopes.b[k]), lane_row));
+      return hn::Add(hn::Mul(Set(l.a[k]), column), hn::Mul(Set(l.b[k]), lane_row));
     };
     const V off0 = off(0), off1 = off(1), off2 = off(2), off3 = off(3);
     for (int y = 0; y < kTile; y += rows) {
       const auto at = [&](V o, int k) HWY_ATTR {
-        return hn::Add(Set(v.at[k] + slopes.b[k] * static_cast<float>(y)), o);
+        return hn::Add(Set(l.at[k] + l.b[k] * static_cast<float>(y)), o);
       };
       const V e0 = at(off0, 0), e1 = at(off1, 1), e2 = at(off2, 2), g = at(off3, 3);
       const int index = y * kTile + x;
@@ -274,28 +267,44 @@ void FillBlock(const BlockJob& job) {
             y0 = static_cast<int>(job.block) / n.blocks_wide * kBlock;
   const std::size_t first_patch = std::size_t{job.block} * 16;
   BlockCounts& c = *job.counts;
-  for (std::size_t i = 0; i < job.count; ++i) {
-    const Side& s = job.sides[job.selected[i]];
-    Slopes slopes;
-    FindSlopes(s, slopes);
-    Squares patches = TestSquares(s, slopes, x0, y0, kPatch, n.patches.least.data() + first_patch,
-                                  n.patches.greatest.data() + first_patch);
-    while (patches.whole != 0) c.patches[TakeBit(patches.whole)] += s.add;
-    while (patches.some != 0) {
-      const std::uint32_t p = TakeBit(patches.some);
-      const int x = x0 + static_cast<int>(p % 4) * kPatch,
-                y = y0 + static_cast<int>(p / 4) * kPatch;
-      const std::size_t first_tile = (first_patch + p) * 16;
-      Squares tiles = TestSquares(s, slopes, x, y, kTile, n.tiles.least.data() + first_tile,
-                                  n.tiles.greatest.data() + first_tile);
-      while (tiles.whole != 0) c.tiles[p * 16 + TakeBit(tiles.whole)] += s.add;
-      while (tiles.some != 0) {
-        const std::uint32_t t = TakeBit(tiles.some), in_block = p * 16 + t;
-        c.touched[in_block] = 1;
-        FillTile({s, x + static_cast<int>(t % 4) * kTile, y + static_cast<int>(t / 4) * kTile,
-                  n.nearness.data() + (first_tile + t) * kTileSamples,
-                  c.samples + in_block * kTileSamples, job.exact},
-                 slopes);
+  List patches, tiles;
+  for (std::size_t chunk = 0; chunk < job.count; chunk += kChunk) {
+    const auto side = [&](std::size_t i) -> const Side& {
+      return job.sides[job.selected[chunk + i]];
+    };
+    patches.n = 0;
+    for (std::size_t i = 0; i < std::min(kChunk, job.count - chunk); ++i) {
+      const Side& s = side(i);
+      TestSquares(s, x0, y0, kPatch, n.patches.least.data() + first_patch,
+                  n.patches.greatest.data() + first_patch,
+                  [&](std::size_t k, auto some, auto all) HWY_ATTR {
+                    Append(patches, i * 16 + k, some);
+                    AddTo(c.patches + k, all, s.add);
+                  });
+    }
+    for (std::size_t from = 0; from < patches.n; from += kChunk) {
+      tiles.n = 0;
+      for (std::size_t i = from; i < std::min(patches.n, from + kChunk); ++i) {
+        const std::uint32_t code = patches.at[i], patch = code % 16;
+        const Side& s = side(code / 16);
+        const std::size_t first = (first_patch + patch) * 16;
+        TestSquares(s, x0 + static_cast<int>(patch % 4) * kPatch,
+                    y0 + static_cast<int>(patch / 4) * kPatch, kTile, n.tiles.least.data() + first,
+                    n.tiles.greatest.data() + first,
+                    [&](std::size_t k, auto some, auto all) HWY_ATTR {
+                      Append(tiles, code * 16 + k, some);
+                      AddTo(c.tiles + patch * 16 + k, all, s.add);
+                    });
+      }
+      for (std::size_t i = 0; i < tiles.n; ++i) {
+        const std::uint32_t code = tiles.at[i], tile = code % 256;  // of the block
+        c.touched[tile] = 1;
+        FillTile(
+            {side(code / 256),
+             x0 + static_cast<int>(tile / 16 % 4) * kPatch + static_cast<int>(tile % 4) * kTile,
+             y0 + static_cast<int>(tile / 64) * kPatch + static_cast<int>(tile / 4 % 4) * kTile,
+             n.nearness.data() + (std::size_t{job.block} * kBlockTiles + tile) * kTileSamples,
+             c.samples + tile * kTileSamples, job.exact});
       }
     }
   }
