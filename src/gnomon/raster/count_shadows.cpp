@@ -17,9 +17,7 @@
 #include <gnomon/raster/polygon.h>
 #include <gnomon/raster/strip.h>
 #include <gnomon/silhouette/edge_tree.h>
-#include <gnomon/silhouette/light_sides.h>
 #include <gnomon/silhouette/silhouette.h>
-#include <gnomon/silhouette/sun_sides.h>
 #include <gnomon/silhouette/vector_silhouette.h>
 
 namespace gnomon {
@@ -36,8 +34,6 @@ constexpr std::size_t kBatchLights = 16;
 // A tree of edges is built for as many lights: one light costs brute force 8 ns a triangle and the
 // tree 1, and building it, by one thread, 500 to 2000 (docs/silhouettes.md).
 constexpr std::size_t kLightsForTree = 512;
-// Planes for sun_sides() are made for as many: they cost about what two lights save.
-constexpr std::size_t kLightsForPlanes = 4;
 
 Corners corners_of(const Scene& scene, std::uint32_t triangle) {
   const Triangle& t = scene.mesh.triangles[triangle];
@@ -53,13 +49,9 @@ bool is_caster(const Casters& c, std::uint32_t triangle) {
 struct ViewSetup {
   ScreenSpace space;
   ScreenPoints screen;
-  SunPlanes planes;                // of the casters, if there are enough suns
   LeastCells made_cells;           // where the receivers have none
   double least_nearness = 0;       // of all samples; infinity: there are none
   std::vector<double> band_least;  // per band
-  Vec4 largest{0, 0, 0, 1};        // bounds of the vertices' coordinates
-  std::vector<std::int8_t>
-      eye_sides;  // sign of |A; B; C; eye| per triangle; empty where C(e) is never needed
 };
 
 // CSR: what touches each band.
@@ -92,7 +84,7 @@ struct LightSetup {
   std::vector<Strip> strips;  // the sides that need no polygon, run by run
   std::vector<Run> runs;
   bool looks_with_light = false;            // there are no sides
-  std::vector<std::int8_t> triangle_sides;  // light_sides(); empty where they are not needed
+  std::vector<std::int8_t> triangle_sides;  // as light_sides(); empty where they are not needed
   StripLight strip_light;
   Bins strip_bins;
   ScreenPoint<double> minus_light{};
@@ -109,20 +101,8 @@ const LeastCells& cells_of(const ViewSetup& v, const Receivers& r) {
   return r.cells.levels.empty() ? v.made_cells : r.cells;
 }
 
-ViewSetup set_up_view(const Casters& casters, const Receivers& r, std::span<const Light> lights,
-                      int threads) {
+ViewSetup set_up_view(const Casters& casters, const Receivers& r, int threads) {
   ViewSetup v;
-  const bool points =
-      std::any_of(lights.begin(), lights.end(), [](const Light& l) { return l.w != 0; });
-  if (!is_parallel(r.view) || points) {
-    v.eye_sides =
-        light_sides(casters.scene->mesh, r.view.eye);  // the tie rule moves eyes as it moves lights
-    for (const Vec3& p : casters.scene->mesh.positions) {
-      for (int k = 0; k < 3; ++k) v.largest[k] = std::max(v.largest[k], std::fabs(p[k]));
-    }
-  }
-  if (lights.size() >= kLightsForPlanes && lights.size() < kLightsForTree)
-    v.planes = sun_planes(casters.scene->mesh, threads);
   v.space = screen_space(r.view);
   v.screen = project_all(v.space, casters.scene->mesh.positions, threads);
   if (r.cells.levels.empty()) v.made_cells = least_cells(*casters.scene, r, threads);
@@ -138,33 +118,6 @@ ViewSetup set_up_view(const Casters& casters, const Receivers& r, std::span<cons
   }
   v.least_nearness = *std::min_element(v.band_least.begin(), v.band_least.end());
   return v;
-}
-
-// C(e): casters crossed by the segment from the eye to the light. Between two points at infinity
-// there is none. Most casters have both on one side; of the others most are passed by so widely
-// that plain double can tell.
-std::int32_t count_at_eye(const Casters& casters, const ViewSetup& v, const View& view,
-                          const Light& light, const std::vector<std::int8_t>& sides,
-                          ExactStats& stats) {
-  if (is_parallel(view) && light.w == 0) return 0;
-  const TriMesh& mesh = casters.scene->mesh;
-  const H4<Bound> vertex = lift<Bound>(v.largest);
-  const double error = det4(lift<Bound>(light), lift<Bound>(view.eye), vertex, vertex).error;
-  const H4<double> l{light.x, light.y, light.z, light.w},
-      e{view.eye.x, view.eye.y, view.eye.z, view.eye.w};
-  const auto passed_by = [&](const Vec3& a, const Vec3& b, int side) {
-    return det4<double>(l, e, {a.x, a.y, a.z, 1.0}, {b.x, b.y, b.z, 1.0}) * side < -error;
-  };
-  std::int32_t count = 0;
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    const int eye = v.eye_sides[t];
-    if (sides[t] == eye || !is_caster(casters, t)) continue;
-    const Triangle& c = mesh.triangles[t];
-    const Vec3 &p0 = mesh.positions[c[0]], &p1 = mesh.positions[c[1]], &p2 = mesh.positions[c[2]];
-    if (passed_by(p0, p1, eye) || passed_by(p1, p2, eye) || passed_by(p2, p0, eye)) continue;
-    if (between_eye_and_light(view, triangle_corners(p0, p1, p2), light, stats)) ++count;
-  }
-  return count;
 }
 
 PolygonEquations<double> equations_of_side(const LightSetup& s, const ViewSetup& v,
@@ -244,7 +197,7 @@ void bin(Bins& bins, int bands, const ForEach& for_each) {
 // The first step of a light: which edges are its silhouette. `tree`: of the casters' edges, or
 // nullptr.
 void find_sides(LightSetup& s, const Casters& casters, const Receivers& r, const ViewSetup& v,
-                const EdgeTree* tree, const Light& light) {
+                const EdgeTree* tree, const Light& light, int threads) {
   s.polygons.clear();  // but keep their memory: pages that the system must not clear again
   s.stats = {};
   s.light = snapped(light);
@@ -252,11 +205,7 @@ void find_sides(LightSetup& s, const Casters& casters, const Receivers& r, const
   const bool sides_alone =
       is_parallel(r.view) && s.light.w == 0 && !r.casters_in_front && !r.receivers_not_casting;
   if (tree == nullptr || !sides_alone) {
-    if (s.light.w == 0 && !v.planes.x.empty()) {
-      sun_sides(s.triangle_sides, scene.mesh, v.planes, s.light, &s.stats);
-    } else {
-      s.triangle_sides = light_sides(scene.mesh, s.light, &s.stats);
-    }
+    sides_from_planes(s.triangle_sides, scene.mesh, casters.planes, s.light, threads, &s.stats);
   }
   if (tree == nullptr) {
     find_silhouette_in_vectors(s.silhouette, casters.edges, s.triangle_sides);
@@ -318,7 +267,8 @@ void set_up_run(LightSetup& s, std::size_t index, const Casters& casters, const 
 }
 
 // The third: everything else.
-void finish_light(LightSetup& s, const Casters& casters, const Receivers& r, const ViewSetup& v) {
+void finish_light(LightSetup& s, const Casters& casters, const Receivers& r, const ViewSetup& v,
+                  int threads) {
   const Scene& scene = *casters.scene;
   const std::vector<std::int8_t>& sides = s.triangle_sides;
   for (const Run& run : s.runs) {
@@ -327,7 +277,8 @@ void finish_light(LightSetup& s, const Casters& casters, const Receivers& r, con
   }
   s.sides = s.polygons.size();
   if (r.casters_in_front) add_casters(s, v, casters, r.view, sides);
-  s.eye_count = count_at_eye(casters, v, r.view, s.light, sides, s.stats);
+  s.eye_count = count_between_eye_and_light(scene.mesh, casters.selected, casters.boxes, r.view,
+                                            s.light, threads, s.stats);
   const int bands = static_cast<int>(v.band_least.size());
   bin(s.bins, bands, [&](const auto& f) {
     for (std::size_t i = 0; i < s.polygons.size(); ++i)
@@ -353,9 +304,10 @@ void set_up_lights(std::span<LightSetup> setups, const Casters& casters, const R
                    const ViewSetup& v, const EdgeTree* tree, std::span<const Light> lights,
                    int threads) {
   const int n = static_cast<int>(lights.size());
+  const int inner = n == 1 ? threads : 1;  // several lights keep the threads busy as they are
   parallel_for(n, threads, [&](int i) {
     find_sides(setups[static_cast<std::size_t>(i)], casters, r, v, tree,
-               lights[static_cast<std::size_t>(i)]);
+               lights[static_cast<std::size_t>(i)], inner);
   });
   std::vector<std::pair<LightSetup*, std::size_t>> runs;
   for (LightSetup& s : setups.first(lights.size())) {
@@ -365,8 +317,9 @@ void set_up_lights(std::span<LightSetup> setups, const Casters& casters, const R
     const auto& [s, run] = runs[static_cast<std::size_t>(k)];
     set_up_run(*s, run, casters, r, v);
   });
-  parallel_for(n, threads,
-               [&](int i) { finish_light(setups[static_cast<std::size_t>(i)], casters, r, v); });
+  parallel_for(n, threads, [&](int i) {
+    finish_light(setups[static_cast<std::size_t>(i)], casters, r, v, inner);
+  });
 }
 
 class Exact final : public ExactDecisions, public ExactStripDecisions {
@@ -701,7 +654,7 @@ CountStats count(const Casters& casters, const Receivers& receivers, std::span<c
                  int threads, const Finish& finish) {
   CountStats stats;
   std::mutex stats_mutex;
-  const ViewSetup view = set_up_view(casters, receivers, lights, threads);
+  const ViewSetup view = set_up_view(casters, receivers, threads);
   const int bands = static_cast<int>(view.band_least.size());
   // A third of the edges of closed meshes are on the silhouette of a sun at most; the rest is
   // refused when it is set up.
@@ -752,6 +705,8 @@ Casters prepare_casters(const Scene& scene) {
     for (std::uint32_t t = 0; t < c.selected.size(); ++t) c.selected[t] = casts(scene, t) ? 1 : 0;
   }
   c.edges = build_edge_table(scene.mesh, c.selected);
+  c.planes = light_planes(scene.mesh, 1);
+  c.boxes = run_boxes(scene.mesh, c.selected);
   return c;
 }
 
