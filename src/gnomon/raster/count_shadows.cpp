@@ -111,6 +111,8 @@ Casters prepare_casters(const Scene& scene) {
     for (std::uint32_t t = 0; t < c.selected.size(); ++t) c.selected[t] = casts(scene, t) ? 1 : 0;
   }
   c.edges = build_edge_table(scene.mesh, c.selected);
+  c.planes = light_planes(scene.mesh, 1);
+  c.boxes = run_boxes(scene.mesh, c.selected);
   return c;
 }
 

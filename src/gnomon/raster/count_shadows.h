@@ -9,7 +9,9 @@
 
 #include <gnomon/core/exact.h>
 #include <gnomon/mesh/edge_table.h>
+#include <gnomon/raster/eye_count.h>
 #include <gnomon/scene/scene.h>
+#include <gnomon/silhouette/light_planes.h>
 #include <gnomon/view/receivers.h>
 
 namespace gnomon {
@@ -19,6 +21,8 @@ struct Casters {
   const Scene* scene = nullptr;
   std::vector<std::uint8_t> selected;  // per triangle: 1 if it casts; empty: all cast
   EdgeTable edges;                     // of the casting triangles
+  LightPlanes planes;                  // of all triangles
+  RunBoxes boxes;                      // of the casting triangles
 };
 Casters prepare_casters(const Scene& scene);
 

@@ -7,7 +7,6 @@
 
 #include <gnomon/core/parallel.h>
 #include <gnomon/raster/least_cells.h>
-#include <gnomon/silhouette/light_sides.h>
 #include <gnomon/silhouette/vector_silhouette.h>
 
 namespace gnomon {
@@ -23,36 +22,6 @@ bool is_caster(const Casters& c, std::uint32_t triangle) {
 }
 
 namespace {
-
-// Planes for sun_sides() are made for as many lights: they cost about what two of them save.
-constexpr std::size_t kLightsForPlanes = 4;
-
-// C(e): casters crossed by the segment from the eye to the light. Between two points at infinity
-// there is none. Most casters have both on one side; of the others most are passed by so widely
-// that plain double can tell.
-std::int32_t count_at_eye(const Casters& casters, const ViewSetup& v, const View& view,
-                          const Light& light, const std::vector<std::int8_t>& sides,
-                          ExactStats& stats) {
-  if (is_parallel(view) && light.w == 0) return 0;
-  const TriMesh& mesh = casters.scene->mesh;
-  const H4<Bound> vertex = lift<Bound>(v.largest);
-  const double error = det4(lift<Bound>(light), lift<Bound>(view.eye), vertex, vertex).error;
-  const H4<double> l{light.x, light.y, light.z, light.w},
-      e{view.eye.x, view.eye.y, view.eye.z, view.eye.w};
-  const auto passed_by = [&](const Vec3& a, const Vec3& b, int side) {
-    return det4<double>(l, e, {a.x, a.y, a.z, 1.0}, {b.x, b.y, b.z, 1.0}) * side < -error;
-  };
-  std::int32_t count = 0;
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    const int eye = v.eye_sides[t];
-    if (sides[t] == eye || !is_caster(casters, t)) continue;
-    const Triangle& c = mesh.triangles[t];
-    const Vec3 &p0 = mesh.positions[c[0]], &p1 = mesh.positions[c[1]], &p2 = mesh.positions[c[2]];
-    if (passed_by(p0, p1, eye) || passed_by(p1, p2, eye) || passed_by(p2, p0, eye)) continue;
-    if (between_eye_and_light(view, triangle_corners(p0, p1, p2), light, stats)) ++count;
-  }
-  return count;
-}
 
 // Under which light, if any, sides are strips.
 StripLight strips_under(const ViewSetup& v, const Receivers& r, const Light& light) {
@@ -111,18 +80,14 @@ void bin(Bins& bins, int bands, const ForEach& for_each) {
 // The first step of a light: which edges are its silhouette. `tree`: of the casters' edges, or
 // nullptr.
 void find_sides(LightSetup& s, const Casters& casters, const Receivers& r, const ViewSetup& v,
-                const EdgeTree* tree, const Light& light) {
+                const EdgeTree* tree, const Light& light, int threads) {
   s.stats = {};
   s.light = snapped(light);
   const Scene& scene = *casters.scene;
   const bool sides_alone =
       is_parallel(r.view) && s.light.w == 0 && !r.casters_in_front && !r.receivers_not_casting;
   if (tree == nullptr || !sides_alone) {
-    if (s.light.w == 0 && !v.planes.x.empty()) {
-      sun_sides(s.triangle_sides, scene.mesh, v.planes, s.light, &s.stats);
-    } else {
-      s.triangle_sides = light_sides(scene.mesh, s.light, &s.stats);
-    }
+    sides_from_planes(s.triangle_sides, scene.mesh, casters.planes, s.light, threads, &s.stats);
   }
   if (tree == nullptr) {
     find_silhouette_in_vectors(s.silhouette, casters.edges, s.triangle_sides);
@@ -278,11 +243,13 @@ void bin_sides(LightSetup& s, const NearnessTiles& tiles) {
 }
 
 // The third: everything else.
-void finish_light(LightSetup& s, const Casters& casters, const Receivers& r, const ViewSetup& v) {
+void finish_light(LightSetup& s, const Casters& casters, const Receivers& r, const ViewSetup& v,
+                  int threads) {
   const Scene& scene = *casters.scene;
   const std::vector<std::int8_t>& sides = s.triangle_sides;
   for (const SetupRun& run : s.runs) s.stats += run.stats;
-  s.eye_count = count_at_eye(casters, v, r.view, s.light, sides, s.stats);
+  s.eye_count = count_between_eye_and_light(scene.mesh, casters.selected, casters.boxes, r.view,
+                                            s.light, threads, s.stats);
   if (s.by_strips) {
     bin_strips(s, v.bands);
   } else {
@@ -315,17 +282,6 @@ ViewSetup set_up_view(const Casters& casters, const Receivers& r, std::span<cons
                       int threads) {
   ViewSetup v;
   v.bands = (r.view.height + kBandRows - 1) / kBandRows;
-  const bool points =
-      std::any_of(lights.begin(), lights.end(), [](const Light& l) { return l.w != 0; });
-  if (!is_parallel(r.view) || points) {
-    v.eye_sides =
-        light_sides(casters.scene->mesh, r.view.eye);  // the tie rule moves eyes as it moves lights
-    for (const Vec3& p : casters.scene->mesh.positions) {
-      for (int k = 0; k < 3; ++k) v.largest[k] = std::max(v.largest[k], std::fabs(p[k]));
-    }
-  }
-  if (lights.size() >= kLightsForPlanes && lights.size() < kLightsForTree)
-    v.planes = sun_planes(casters.scene->mesh, threads);
   v.space = screen_space(r.view);
   v.screen = project_all(v.space, casters.scene->mesh.positions, threads);
   bool strips = false, sides = false;
@@ -343,9 +299,10 @@ void set_up_lights(std::span<LightSetup> setups, const Casters& casters, const R
                    const ViewSetup& v, const EdgeTree* tree, std::span<const Light> lights,
                    int threads) {
   const int n = static_cast<int>(lights.size());
+  const int inner = n == 1 ? threads : 1;  // several lights keep the threads busy as they are
   parallel_for(n, threads, [&](int i) {
     find_sides(setups[static_cast<std::size_t>(i)], casters, r, v, tree,
-               lights[static_cast<std::size_t>(i)]);
+               lights[static_cast<std::size_t>(i)], inner);
   });
   std::vector<std::pair<LightSetup*, std::size_t>> runs;
   for (LightSetup& s : setups.first(lights.size())) {
@@ -355,8 +312,9 @@ void set_up_lights(std::span<LightSetup> setups, const Casters& casters, const R
     const auto& [s, run] = runs[static_cast<std::size_t>(k)];
     set_up_run(*s, run, casters, r, v);
   });
-  parallel_for(n, threads,
-               [&](int i) { finish_light(setups[static_cast<std::size_t>(i)], casters, r, v); });
+  parallel_for(n, threads, [&](int i) {
+    finish_light(setups[static_cast<std::size_t>(i)], casters, r, v, inner);
+  });
 }
 
 }  // namespace gnomon

@@ -14,7 +14,6 @@
 #include <gnomon/raster/strip.h>
 #include <gnomon/silhouette/edge_tree.h>
 #include <gnomon/silhouette/silhouette.h>
-#include <gnomon/silhouette/sun_sides.h>
 
 namespace gnomon {
 
@@ -29,13 +28,9 @@ inline constexpr std::size_t kLightsForTree = 512;
 struct ViewSetup {
   ScreenSpace space;
   ScreenPoints screen;
-  SunPlanes planes;          // of the casters, if there are enough suns
   LeastCells made_cells;     // where the receivers have none and need them
   NearnessTiles made_tiles;  // the same
   int bands = 0;
-  Vec4 largest{0, 0, 0, 1};  // bounds of the vertices' coordinates
-  std::vector<std::int8_t>
-      eye_sides;  // sign of |A; B; C; eye| per triangle; empty where C(e) is never needed
 };
 
 // CSR: what touches each band or block.
@@ -62,7 +57,7 @@ struct SetupRun {
 struct LightSetup {
   Light light{0, 0, 0, 0};
   Silhouette silhouette;
-  std::vector<std::int8_t> triangle_sides;  // light_sides(); empty where they are not needed
+  std::vector<std::int8_t> triangle_sides;  // as light_sides(); empty where they are not needed
   bool looks_with_light = false;            // there are no sides
   StripLight strip_light;
   bool by_strips = false;  // in bands, else by sides in blocks
