@@ -43,7 +43,7 @@ void BlockCounter::fill(const LightSetup& s) {
   if (selected.empty()) return;
   ExactDecisions exact(casters_, view_, receivers_, s);
   BlockJob job;
-  job.sides = s.sides.data();
+  job.sides = s.sides.get();
   job.selected = selected.data();
   job.count = selected.size();
   job.tiles = &tiles_;

@@ -22,8 +22,8 @@ using V = hn::Vec<F>;
 using M = hn::Mask<F>;
 
 // Rounding to float of an edge function: its value at the first pixel, two products with rounded
-// slopes, three sums, over at most 8 pixels; fewer roundings of 2^-24 of |value| + 16 than these.
-constexpr float kEdgeInFloat = 0x1p-22F;
+// slopes, five sums, over at most 8 pixels; fewer roundings of 2^-24 of |value| + 16 than these.
+constexpr float kEdgeInFloat = 3 * 0x1p-23F;
 // The same of nearness, and the rounding of the sample's own (2^-23) and of the difference, as a
 // share of |value| + 16 times its slopes.
 constexpr float kNearnessInFloat = 0x1p-20F;
@@ -36,14 +36,16 @@ using D = hn::CappedTag<double, kSideFunctions>;
 using DF = hn::Rebind<float, D>;
 
 // A side's functions over squares of `pixels` pixels from a place, in float: their values at the
-// middle of its first pixel and their slopes; what is wrong with them; what, added to a value, is
-// above the function in the whole square, and what, subtracted, is below it.
+// middle of its first pixel and their slopes; what, added to a value, is above the function in the
+// whole square, with all that may be wrong with it, and what, subtracted, is below it.
 struct Local {
   HWY_ALIGN float at[kSideFunctions], a[kSideFunctions], b[kSideFunctions];
-  HWY_ALIGN float error[kSideFunctions], up[kSideFunctions], down[kSideFunctions];
+  HWY_ALIGN float up[kSideFunctions], down[kSideFunctions];
 };
 
 HWY_ALIGN constexpr float kOfNearness[kSideFunctions] = {0, 0, 0, 1, 1, 1, 0, 0};
+HWY_ALIGN constexpr float kInFloat[kSideFunctions] = {
+    kEdgeInFloat, kEdgeInFloat, kEdgeInFloat, kNearnessInFloat, 0, 0, 0, 0};
 
 // `rounding`: of |value| + 16 `pixels` times the slopes.
 HWY_INLINE void FindLocal(const Side& s, int x, int y, float pixels, float rounding, Local& out) {
@@ -65,7 +67,6 @@ HWY_INLINE void FindLocal(const Side& s, int x, int y, float pixels, float round
     hn::Store(at, f, out.at + k);
     hn::Store(fa, f, out.a + k);
     hn::Store(fb, f, out.b + k);
-    hn::Store(error, f, out.error + k);
     hn::Store(hn::Add(error, hn::Mul(span, rise)), f, out.up + k);
     hn::Store(hn::Sub(error, hn::Mul(span, fall)), f, out.down + k);
   }
@@ -198,64 +199,82 @@ struct TileJob {
 };
 
 // The samples of a vector that float cannot decide: `open`; `covered`: those that the side surely
-// covers.
+// covers. `index`: of the first, in the tile.
 template <class Mask>
-HWY_NOINLINE void DecideOpen(const TileJob& t, Mask open, Mask covered, int index) {
+HWY_NOINLINE void DecideOpen(const TileJob& t, Mask open, Mask covered, std::size_t index) {
   const F f;
   HWY_ALIGN float is_open[16], is_covered[16];
   hn::Store(hn::IfThenElseZero(open, Set(1)), f, is_open);
   hn::Store(hn::IfThenElseZero(covered, Set(1)), f, is_covered);
-  for (int lane = 0; lane < static_cast<int>(hn::Lanes(f)); ++lane) {
+  for (std::size_t lane = 0; lane < hn::Lanes(f); ++lane) {
     if (is_open[lane] == 0) continue;
-    const int column = t.column + (index + lane) % kTile, row = t.row + (index + lane) / kTile;
+    const std::size_t k = index + lane;
+    const int column = t.column + column_in_tile(k), row = t.row + row_in_tile(k);
     if ((is_covered[lane] != 0 || t.exact->covers(t.side, column, row)) &&
         t.exact->in_front(t.side, column, row)) {
-      t.counts[index + lane] += t.side.add;
+      t.counts[k] += t.side.add;
     }
   }
 }
 
+// Four by four samples at a time.
 HWY_INLINE void FillTile(const TileJob& t) {
+  const D d;
+  const DF df;
   const F f;
   const FI fi;
+  constexpr std::size_t kQuads = kTileSamples / 16;
+  // What is not below the functions at each quad's first sample, and, subtracted, what is not
+  // above.
+  HWY_ALIGN float most[kQuads][kSideFunctions], a[kSideFunctions], b[kSideFunctions],
+      twice[kSideFunctions];
   const Side& s = t.side;
-  const int lanes = static_cast<int>(hn::Lanes(f)), columns = std::min(lanes, kTile),
-            rows = lanes / columns;
-  Local l;
-  FindLocal(s, t.column, t.row, 1, kEdgeInFloat, l);
-  const float nearness_error =
-      l.error[kNearness] +
-      kNearnessInFloat * (std::fabs(l.at[kNearness]) +
-                          16 * (std::fabs(l.a[kNearness]) + std::fabs(l.b[kNearness])));
-  const V error0 = Set(l.error[0]), error1 = Set(l.error[1]), error2 = Set(l.error[2]),
-          error3 = Set(nearness_error);
-  const auto lane = hn::Iota(fi, 0);
-  const V lane_row = hn::ConvertTo(f, hn::ShiftRight<3>(lane)),
-          lane_column = hn::ConvertTo(f, hn::And(lane, hn::Set(fi, 7)));
+  const auto px = hn::Set(d, t.column + kPixelCentre), py = hn::Set(d, t.row + kPixelCentre);
+  const auto far = hn::Set(df, 16), four = hn::Set(df, 4), relative = hn::Set(df, s.relative);
+  for (std::size_t k = 0; k < kSideFunctions; k += hn::Lanes(d)) {
+    const auto da = hn::Load(d, s.a + k), db = hn::Load(d, s.b + k), dc = hn::Load(d, s.c + k);
+    const auto value = hn::DemoteTo(df, hn::Add(hn::Add(dc, hn::Mul(da, px)), hn::Mul(db, py)));
+    const auto fa = hn::DemoteTo(df, da), fb = hn::DemoteTo(df, db);
+    const auto rounding =
+        hn::Add(hn::Load(df, kInFloat + k), hn::Mul(relative, hn::Load(df, kOfNearness + k)));
+    const auto size = hn::Add(hn::Abs(value), hn::Mul(far, hn::Add(hn::Abs(fa), hn::Abs(fb))));
+    const auto error = hn::Add(hn::Load(df, s.slack + k), hn::Mul(rounding, size));
+    const auto right = hn::Mul(fa, four), first = hn::Add(value, error),
+               below = hn::Add(first, hn::Mul(fb, four));
+    hn::Store(fa, df, a + k);
+    hn::Store(fb, df, b + k);
+    hn::Store(hn::Add(error, error), df, twice + k);
+    hn::Store(first, df, most[0] + k);
+    hn::Store(hn::Add(first, right), df, most[1] + k);
+    hn::Store(below, df, most[2] + k);
+    hn::Store(hn::Add(below, right), df, most[3] + k);
+  }
+  const V zero = hn::Zero(f);
   const auto add = hn::Set(fi, s.add);
-  for (int x = 0; x < kTile; x += columns) {
-    const V column = hn::Add(lane_column, Set(static_cast<float>(x)));
+  for (std::size_t i = 0; i < 16; i += hn::Lanes(f)) {
+    const auto lane = hn::Iota(fi, static_cast<std::int32_t>(i));
+    const V columns = hn::ConvertTo(f, hn::And(lane, hn::Set(fi, 3))),
+            rows = hn::ConvertTo(f, hn::ShiftRight<2>(lane));
     const auto off = [&](int k) HWY_ATTR {
-      return hn::Add(hn::Mul(Set(l.a[k]), column), hn::Mul(Set(l.b[k]), lane_row));
+      return hn::Add(hn::Mul(Set(a[k]), columns), hn::Mul(Set(b[k]), rows));
     };
-    const V off0 = off(0), off1 = off(1), off2 = off(2), off3 = off(3);
-    for (int y = 0; y < kTile; y += rows) {
-      const auto at = [&](V o, int k) HWY_ATTR {
-        return hn::Add(Set(l.at[k] + l.b[k] * static_cast<float>(y)), o);
-      };
-      const V e0 = at(off0, 0), e1 = at(off1, 1), e2 = at(off2, 2), g = at(off3, 3);
-      const int index = y * kTile + x;
-      const V difference = hn::Sub(g, hn::LoadU(f, t.nearness + index));
+    const V off0 = off(kEdge), off1 = off(kEdge + 1), off2 = off(kEdge + 2), off3 = off(kNearness);
+    for (std::size_t q = 0; q < kQuads; ++q) {
+      const V e0 = hn::Add(Set(most[q][kEdge]), off0), e1 = hn::Add(Set(most[q][kEdge + 1]), off1),
+              e2 = hn::Add(Set(most[q][kEdge + 2]), off2);
+      const M passed = hn::Lt(hn::Min(hn::Min(e0, e1), e2), zero);
+      //if (hn::AllTrue(f, passed)) continue;
+      const std::size_t index = q * 16 + i;
+      const auto less = [&](V value, int k) HWY_ATTR { return hn::Sub(value, Set(twice[k])); };
+      const V nearer =
+          hn::Sub(hn::Add(Set(most[q][kNearness]), off3), hn::LoadU(f, t.nearness + index));
       const M covered =
-          hn::And(hn::And(hn::Gt(e0, error0), hn::Gt(e1, error1)), hn::Gt(e2, error2));
-      const M outside =
-          hn::Or(hn::Or(hn::Lt(e0, hn::Neg(error0)), hn::Lt(e1, hn::Neg(error1))),
-                 hn::Or(hn::Lt(e2, hn::Neg(error2)), hn::Lt(difference, hn::Neg(error3))));
-      const M front = hn::And(covered, hn::Gt(difference, error3));
+          hn::Gt(hn::Min(hn::Min(less(e0, kEdge), less(e1, kEdge + 1)), less(e2, kEdge + 2)), zero);
+      const M added = hn::And(covered, hn::Gt(less(nearer, kNearness), zero));
       std::int32_t* counts = t.counts + index;
-      hn::Store(hn::Add(hn::Load(fi, counts), hn::IfThenElseZero(hn::RebindMask(fi, front), add)),
+      hn::Store(hn::Add(hn::Load(fi, counts), hn::IfThenElseZero(hn::RebindMask(fi, added), add)),
                 fi, counts);
-      const M open = hn::Not(hn::Or(outside, front));
+      const M open = hn::Not(hn::Or(hn::Or(passed, hn::Lt(nearer, zero)), added));
       if (HWY_UNLIKELY(!hn::AllFalse(f, open))) DecideOpen(t, open, covered, index);
     }
   }
@@ -350,24 +369,31 @@ HWY_INLINE void MaskOfTile(const std::int32_t* counts, const float* nearness, st
 
 void TakeBlockMask(BlockCounts& c, const NearnessTiles& n, std::uint32_t block, std::uint8_t* to,
                    std::ptrdiff_t stride) {
-  HWY_ALIGN std::uint8_t mask[kTileSamples];
   ForEachTile(c, n, block,
               [&](std::uint32_t t, int column, int row, int columns, int rows, std::int32_t count)
                   HWY_ATTR {
-                    const float* nearness =
-                        n.nearness.data() + (std::size_t{block} * kBlockTiles + t) * kTileSamples;
-                    if (c.touched[t] == 0 && count <= 0) {
-                      std::memset(mask, 0, sizeof(mask));
-                    } else {
-                      MaskOfTile(c.samples + t * kTileSamples, nearness, count, mask);
-                    }
+                    const std::size_t tile = std::size_t{block} * kBlockTiles + t;
                     std::uint8_t* first = to + row * stride + column;
-                    for (int y = 0; y < rows; ++y) {
-                      if (HWY_LIKELY(columns == kTile)) {
-                        std::memcpy(first + y * stride, mask + y * kTile, kTile);
-                      } else {
-                        std::copy_n(mask + y * kTile, columns, first + y * stride);
+                    if (c.touched[t] == 0 && (count <= 0 || n.full[tile] != 0)) {
+                      for (int y = 0; y < rows; ++y)
+                        std::memset(first + y * stride, count > 0 ? 1 : 0,
+                                    static_cast<std::size_t>(columns));
+                      return;
+                    }
+                    HWY_ALIGN std::uint8_t mask[kTileSamples];
+                    MaskOfTile(c.samples + t * kTileSamples,
+                               n.nearness.data() + tile * kTileSamples, count, mask);
+                    if (HWY_LIKELY(columns == kTile && rows == kTile)) {
+                      for (int y = 0; y < kTile; ++y) {
+                        const std::uint8_t* from = mask + index_in_tile(0, y);
+                        std::memcpy(first + y * stride, from, 4);
+                        std::memcpy(first + y * stride + 4, from + 16, 4);
                       }
+                      return;
+                    }
+                    for (int y = 0; y < rows; ++y) {
+                      for (int x = 0; x < columns; ++x)
+                        first[y * stride + x] = mask[index_in_tile(x, y)];
                     }
                   });
 }
@@ -383,7 +409,7 @@ void TakeBlockCounts(BlockCounts& c, const NearnessTiles& n, std::uint32_t block
         for (int y = 0; y < rows; ++y) {
           std::int32_t* line = to + (row + y) * stride + column;
           for (int x = 0; x < columns; ++x) {
-            const int k = y * kTile + x;
+            const std::size_t k = index_in_tile(x, y);
             line[x] = nearness[k] == std::numeric_limits<float>::infinity() ? 0 : counts[k] + count;
           }
         }

@@ -109,13 +109,12 @@ void find_sides(LightSetup& s, const Casters& casters, const Receivers& r, const
       r.casters_in_front ? (scene.mesh.triangles.size() + kRun - 1) / kRun : 0;
   s.runs.resize(s.edge_runs + caster_runs);
   // With room to grow: the next light has another silhouette.
-  const auto make_room = [](auto& to, std::size_t n) {
-    if (to.size() < n) to.resize(n + n / 4);
-  };
-  if (s.by_strips) {
-    make_room(s.strips, s.edge_runs * kRun);
-  } else {
-    make_room(s.sides, s.runs.size() * kRun);
+  const std::size_t most = s.runs.size() * kRun;
+  if (s.by_strips && s.strips.size() < most) {
+    s.strips.resize(most + most / 4);
+  } else if (!s.by_strips && s.room_for_sides < most) {
+    s.room_for_sides = most + most / 4;
+    s.sides = std::make_unique_for_overwrite<Side[]>(s.room_for_sides);
   }
 }
 
@@ -166,7 +165,7 @@ void make_sides_of_run(LightSetup& s, std::size_t index, const Casters& casters,
     };
     run.made =
         make_sides(setup, s.silhouette.data(), first, std::min(s.silhouette.size(), first + kRun),
-                   s.minus_light, s.sides.data() + first);
+                   s.minus_light, s.sides.get() + first);
   } else {
     // Casters that do not receive: rays may cross them before they reach their sample. One that
     // receives cannot be in front of the first receiver.
@@ -188,11 +187,11 @@ void make_sides_of_run(LightSetup& s, std::size_t index, const Casters& casters,
       return facing(r.view, corners_of(scene, id), s.light, run.stats);
     };
     run.made = make_caster_sides(setup, scene.mesh.triangles.data(), run.ids.data(), run.ids.size(),
-                                 s.triangle_sides.data(), s.sides.data() + first);
+                                 s.triangle_sides.data(), s.sides.get() + first);
   }
   run.hits.some.clear();
   run.hits.whole.clear();
-  find_blocks(s.sides.data(), first, first + run.made, tiles, run.hits);
+  find_blocks(s.sides.get(), first, first + run.made, tiles, run.hits);
 }
 
 void set_up_run(LightSetup& s, std::size_t index, const Casters& casters, const Receivers& r,

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -71,7 +72,8 @@ struct LightSetup {
   std::vector<Polygon> polygons;  // what strips cannot be trusted with; id: index into silhouette
   Bins bins;                      // of the polygons
 
-  std::vector<Side> sides;
+  std::unique_ptr<Side[]> sides;  // not set to zero: much of it is never used
+  std::size_t room_for_sides = 0;
   Bins side_bins;                          // by block
   std::vector<std::int32_t> block_counts;  // of the sides that cover whole blocks
 

@@ -63,6 +63,7 @@ NearnessTiles nearness_tiles(const Receivers& r, int threads) {
   resize(out.fields,
          static_cast<std::size_t>(roots_wide) * static_cast<std::size_t>(roots_high) * 16);
   out.nearness.resize(blocks * kBlockTiles * kTileSamples);
+  out.full.resize(blocks * kBlockTiles);
 
   const double lowest_unknown = is_parallel(r.view) ? -std::numeric_limits<double>::infinity() : 0;
   const auto take_tile = [&](std::size_t tile, int x0, int y0) {
@@ -71,19 +72,21 @@ NearnessTiles nearness_tiles(const Receivers& r, int threads) {
     const int columns = std::min(kTile, out.width - x0), rows = std::min(kTile, out.height - y0);
     if (columns <= 0 || rows <= 0) return;
     float least = kInfinity, greatest = -kInfinity;
-    bool unknown = false;
-    for (int y = 0; y < rows; ++y, to += kTile) {
+    bool unknown = false, full = columns == kTile && rows == kTile;
+    for (int y = 0; y < rows; ++y) {
       const float* from = r.nearness.data() +
                           static_cast<std::size_t>(y0 + y) * static_cast<std::size_t>(out.width) +
                           x0;
-      std::copy_n(from, columns, to);
-      for (int x = 0; x < kTile; ++x) {
-        const float n = to[x];
+      for (int x = 0; x < columns; ++x) {
+        const float n = from[x];
+        to[index_in_tile(x, y)] = n;
         least = n < least ? n : least;  // false for NaN
         greatest = n > greatest && n < kInfinity ? n : greatest;
         unknown |= n != n;
+        full &= n != kInfinity;
       }
     }
+    out.full[tile] = full ? 1 : 0;
     double low = static_cast<double>(least), high = static_cast<double>(greatest);
     if (std::isfinite(low)) {
       low -= std::fabs(low) * kNearnessRounding + r.nearness_floor;

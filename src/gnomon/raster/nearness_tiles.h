@@ -16,4 +16,15 @@ NearnessTiles nearness_tiles(const Receivers& receivers, int threads);
 inline constexpr std::size_t kTileSamples = std::size_t{kTile} * kTile;
 inline constexpr std::size_t kBlockTiles = 256;
 
+// A tile's samples lie in four quads of four by four, left and right, above and below.
+constexpr std::size_t index_in_tile(int column, int row) {
+  return static_cast<std::size_t>((row / 4 * 2 + column / 4) * 16 + row % 4 * 4 + column % 4);
+}
+constexpr int column_in_tile(std::size_t index) {
+  return static_cast<int>(index / 16 % 2 * 4 + index % 4);
+}
+constexpr int row_in_tile(std::size_t index) {
+  return static_cast<int>(index / 32 * 4 + index / 4 % 4);
+}
+
 }  // namespace gnomon

@@ -29,11 +29,11 @@ struct alignas(64) Side {
   // How far the computed functions are off anywhere in the picture, without rounding to float;
   // those of nearness by `relative` of their value more, and compared with a sample's.
   float slack[kSideFunctions];
-  float relative = 0;
-  std::int32_t add = 0;    // what a sample behind it adds to its count
-  std::uint32_t id = 0;    // the silhouette edge's index, or the triangle's
-  std::int8_t facing = 0;  // exact sign of |c0; c1; c2; e|, scene coordinates
-  bool caster = false;
+  float relative;
+  std::int32_t add;    // what a sample behind it adds to its count
+  std::uint32_t id;    // the silhouette edge's index, or the triangle's
+  std::int8_t facing;  // exact sign of |c0; c1; c2; e|, scene coordinates
+  bool caster;
 };
 static_assert(sizeof(Side) == 256);
 

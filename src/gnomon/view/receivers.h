@@ -39,10 +39,11 @@ struct NearnessTiles {
   };
   int width = 0, height = 0;  // pixels
   int blocks_wide = 0, blocks_high = 0;
-  Bounds tiles, patches;        // blocks follow row by row
-  Bounds blocks;                // fields follow row by row
-  Bounds fields;                // squares of 4 x 4 fields follow row by row
-  std::vector<float> nearness;  // 64 a tile, row-major; +infinity outside the picture
+  Bounds tiles, patches;           // blocks follow row by row
+  Bounds blocks;                   // fields follow row by row
+  Bounds fields;                   // squares of 4 x 4 fields follow row by row
+  std::vector<float> nearness;     // 64 a tile (nearness_tiles.h); +infinity outside the picture
+  std::vector<std::uint8_t> full;  // per tile: 1 if all its pixels have samples
 };
 
 struct Receivers {
