@@ -263,7 +263,6 @@ HWY_INLINE void FillTile(const TileJob& t) {
       const V e0 = hn::Add(Set(most[q][kEdge]), off0), e1 = hn::Add(Set(most[q][kEdge + 1]), off1),
               e2 = hn::Add(Set(most[q][kEdge + 2]), off2);
       const M passed = hn::Lt(hn::Min(hn::Min(e0, e1), e2), zero);
-      //if (hn::AllTrue(f, passed)) continue;
       const std::size_t index = q * 16 + i;
       const auto less = [&](V value, int k) HWY_ATTR { return hn::Sub(value, Set(twice[k])); };
       const V nearer =
