@@ -211,8 +211,9 @@ Scene generated_city(const CityOptions& options) {
                               .material = {},
                               .semantic = {}});
     const double angle = random.between(-kTurn, kTurn) + (random.between(0, 1) < 0.5 ? kPi / 2 : 0);
-    b.place(x + random.between(-1, 1), y + random.between(-1, 1), angle,
-            static_cast<std::uint32_t>(k + 1));
+    // In this order: compilers differ in which of two arguments they evaluate first.
+    const double at_y = y + random.between(-1, 1), at_x = x + random.between(-1, 1);
+    b.place(at_x, at_y, angle, static_cast<std::uint32_t>(k + 1));
     add_building(b, random, x, y);
   }
   weld(scene.mesh, scene.surface_of);

@@ -250,8 +250,10 @@ PaperScene figures_in_a_room() {
                                   {0.25, 1.7}, {0.22, 1.9}, {0, 2}};
   Random random{2004};
   for (int k = 0; k < 6; ++k) {
-    const Vec3 at = snapped(Vec3((k % 3 - 1) * 3 + random.between(-0.5, 0.5),
-                                 (k / 3) * 3 - 1 + random.between(-0.5, 0.5), 0));
+    // In this order: compilers differ in which of two arguments they evaluate first.
+    const double y = (k / 3) * 3 - 1 + random.between(-0.5, 0.5);
+    const double x = (k % 3 - 1) * 3 + random.between(-0.5, 0.5);
+    const Vec3 at = snapped(Vec3(x, y, 0));
     b.begin("figure_" + std::to_string(k));
     b.turned(at, outline, 20);
     const double turn = random.between(0, kTurn);
