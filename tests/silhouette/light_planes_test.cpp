@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <hwy/targets.h>
+#include <glm/geometric.hpp>
 
 #include "soup.h"
 
@@ -57,17 +58,20 @@ TEST(LightPlanes, GiveLightSidesOfSoupsWithTiesAndFarFromTheOrigin) {
   expect_light_sides_on_every_instruction_set(scenes, all);
 }
 
-TEST(LightPlanes, GiveLightSidesOfNeedlesOfAnyThickness) {
+TEST(LightPlanes, GiveLightSidesOfNeedlesOfAnyThicknessUnderLightsNearTheirPlanes) {
   TriMesh m;
+  std::vector<Light> all = lights();
+  all.push_back({0.1, 0.2, 0.3, 1});
   for (int k = 0; k < 60; ++k) {
     const auto i = static_cast<std::uint32_t>(m.positions.size());
     const double thin = std::ldexp(1.0, -k);
-    m.positions.insert(m.positions.end(),
-                       {{0.1, 0.2, 0.3}, {10.7, 3.1 + k, 0.9}, {10.7, 3.1 + k + thin, 0.9 - thin}});
+    const Vec3 a(0.1, 0.2, 0.3), b(10.7, 3.1 + k, 0.9), across(0, 1, -1);
+    m.positions.insert(m.positions.end(), {a, b, b + thin * across});
     m.triangles.push_back({i, i + 1, i + 2});
+    const Vec3 off = cross(b - a, across);
+    for (const double share : {-0.1, -0.01, 1e-5, 0.03})
+      all.push_back(point(a + 0.37 * (b - a) + 5.0 * across + share * off));
   }
-  std::vector<Light> all = lights();
-  all.push_back({0.1, 0.2, 0.3, 1});
   expect_light_sides_on_every_instruction_set({test::scene_of(m)}, all);
 }
 
