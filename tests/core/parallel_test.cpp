@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <fstream>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 #include <gnomon/core/parallel.h>
@@ -26,6 +28,52 @@ TEST(ParallelFor, PassesExceptionsOn) {
                               if (i == 5) throw std::runtime_error("five");
                             }),
                std::runtime_error);
+}
+
+TEST(ParallelFor, WithinAnotherVisitsEveryIndexOnce) {
+  for (const int inner : {1, 2, 3}) {
+    std::vector<std::atomic<int>> visits(400);
+    parallel_for(20, 2, [&](int i) {
+      parallel_for(20, inner, [&](int k) { ++visits[static_cast<std::size_t>(20 * i + k)]; });
+    });
+    for (const auto& v : visits) ASSERT_EQ(v, 1);
+  }
+}
+
+TEST(ParallelFor, CalledByManyThreadsVisitsEveryIndexOnceForEach) {
+  std::vector<std::atomic<int>> visits(4 * 1000);
+  std::vector<std::thread> callers;
+  for (int c = 0; c < 4; ++c) {
+    callers.emplace_back([&visits, c] {
+      for (int begin = 0; begin < 1000; begin += 50) {
+        parallel_for(50, 2 + c % 2,
+                     [&](int i) { ++visits[static_cast<std::size_t>(1000 * c + begin + i)]; });
+      }
+    });
+  }
+  for (std::thread& t : callers) t.join();
+  for (const auto& v : visits) ASSERT_EQ(v, 1);
+}
+
+// Every call once left some kilobytes behind, and made the next one slower.
+TEST(ParallelFor, CalledOverAndOverTakesNoMoreMemory) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "the sanitizer keeps memory that is freed";
+#endif
+  const auto pages = [] {
+    std::ifstream file("/proc/self/statm");
+    long all = 0, resident = 0;
+    file >> all >> resident;
+    return resident;
+  };
+  if (pages() == 0) GTEST_SKIP() << "this system does not say how much memory is taken";
+  const auto call = [](int times) {
+    for (int k = 0; k < times; ++k) parallel_for(10, 2, [](int) {});
+  };
+  call(100);
+  const long before = pages();
+  call(4000);
+  EXPECT_LT(pages() - before, 2000);
 }
 
 TEST(Result, ValueOfAnErrorThrowsItsMessage) {

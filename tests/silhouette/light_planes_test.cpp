@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include <hwy/targets.h>
+#include <glm/geometric.hpp>
 
 #include "soup.h"
 
@@ -56,17 +58,20 @@ TEST(LightPlanes, GiveLightSidesOfSoupsWithTiesAndFarFromTheOrigin) {
   expect_light_sides_on_every_instruction_set(scenes, all);
 }
 
-TEST(LightPlanes, GiveLightSidesOfNeedlesOfAnyThickness) {
+TEST(LightPlanes, GiveLightSidesOfNeedlesOfAnyThicknessUnderLightsNearTheirPlanes) {
   TriMesh m;
+  std::vector<Light> all = lights();
+  all.push_back({0.1, 0.2, 0.3, 1});
   for (int k = 0; k < 60; ++k) {
     const auto i = static_cast<std::uint32_t>(m.positions.size());
     const double thin = std::ldexp(1.0, -k);
-    m.positions.insert(m.positions.end(),
-                       {{0.1, 0.2, 0.3}, {10.7, 3.1 + k, 0.9}, {10.7, 3.1 + k + thin, 0.9 - thin}});
+    const Vec3 a(0.1, 0.2, 0.3), b(10.7, 3.1 + k, 0.9), across(0, 1, -1);
+    m.positions.insert(m.positions.end(), {a, b, b + thin * across});
     m.triangles.push_back({i, i + 1, i + 2});
+    const Vec3 off = cross(b - a, across);
+    for (const double share : {-0.1, -0.01, 1e-5, 0.03})
+      all.push_back(point(a + 0.37 * (b - a) + 5.0 * across + share * off));
   }
-  std::vector<Light> all = lights();
-  all.push_back({0.1, 0.2, 0.3, 1});
   expect_light_sides_on_every_instruction_set({test::scene_of(m)}, all);
 }
 
@@ -96,10 +101,19 @@ TEST(LightPlanes, OfTrianglesWithoutAreaGiveWhatLightSidesGives) {
   }
 }
 
+void expect_same(const Silhouette& found, const Silhouette& specified) {
+  ASSERT_EQ(found.size(), specified.size());
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    EXPECT_EQ(found[k].a, specified[k].a);
+    EXPECT_EQ(found[k].b, specified[k].b);
+    EXPECT_EQ(found[k].multiplicity, specified[k].multiplicity);
+  }
+}
+
 TEST(VectorSilhouette, IsTheSilhouetteOnEveryInstructionSet) {
   TriMesh m;
   test::add_soup(m, 301, 20, 4, 3);  // open, and edges of many triangles
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < 1500; ++i) {   // more than one chunk and block, and no whole number of them
     const double at = 30 + 3 * i;
     test::add_box(m, {at, 0, 0}, {at + 1 + i % 3, 2, 5});  // some touch
   }
@@ -110,13 +124,37 @@ TEST(VectorSilhouette, IsTheSilhouetteOnEveryInstructionSet) {
     for (const Light& light : {Light(1, 2, 3, 0), Light(0, 0, 1, 0), Light(2, 2, 2, 1)}) {
       const std::vector<std::int8_t> sides = light_sides(s.mesh, light);
       const Silhouette specified = find_silhouette(edges, sides);
-      Silhouette found(3);
-      find_silhouette_in_vectors(found, edges, sides);
-      ASSERT_EQ(found.size(), specified.size());
-      for (std::size_t k = 0; k < found.size(); ++k) {
-        EXPECT_EQ(found[k].a, specified[k].a);
-        EXPECT_EQ(found[k].b, specified[k].b);
-        EXPECT_EQ(found[k].multiplicity, specified[k].multiplicity);
+      for (const int threads : {1, 2, 3}) {
+        Silhouette found(3);
+        find_silhouette_in_vectors(found, edges, sides, threads);
+        expect_same(found, specified);
+      }
+    }
+  }
+  hwy::SetSupportedTargetsForTest(0);
+}
+
+// Where reading ahead would leave the table: few edges, the last of one triangle or of many.
+TEST(VectorSilhouette, OfTinyMeshesIsTheSilhouetteOnEveryInstructionSet) {
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    hwy::SetSupportedTargetsForTest(target);
+    for (std::uint32_t n = 0; n < 40; ++n) {
+      TriMesh fan;  // triangles over one edge, which comes first or last
+      fan.positions = {{0, 0, 0}, {0, 0, 1}};
+      for (std::uint32_t t = 0; t < n; ++t) {
+        fan.positions.push_back({std::cos(t), std::sin(t), 0.5});
+        fan.triangles.push_back(t % 3 == 0 ? Triangle{0, 1, t + 2} : Triangle{1, 0, t + 2});
+      }
+      TriMesh turned = fan;
+      const auto most = static_cast<std::uint32_t>(fan.positions.size() - 1);
+      std::reverse(turned.positions.begin(), turned.positions.end());
+      for (Triangle& t : turned.triangles) t = {most - t[0], most - t[1], most - t[2]};
+      for (const TriMesh& m : {fan, turned}) {
+        const EdgeTable edges = build_edge_table(m);
+        const std::vector<std::int8_t> sides = light_sides(m, Light(1, 2, 0.5, 0));
+        Silhouette found;
+        find_silhouette_in_vectors(found, edges, sides, 2);
+        expect_same(found, find_silhouette(edges, sides));
       }
     }
   }

@@ -90,7 +90,7 @@ void find_sides(LightSetup& s, const Casters& casters, const Receivers& r, const
     sides_from_planes(s.triangle_sides, scene.mesh, casters.planes, s.light, threads, &s.stats);
   }
   if (tree == nullptr) {
-    find_silhouette_in_vectors(s.silhouette, casters.edges, s.triangle_sides);
+    find_silhouette_in_vectors(s.silhouette, casters.edges, s.triangle_sides, threads);
   } else {
     ExtractionStats extraction;
     find_silhouette(s.silhouette, *tree, scene.mesh, s.light, s.scratch, &extraction);

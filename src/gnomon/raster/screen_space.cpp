@@ -49,17 +49,21 @@ ScreenPoint<Bound> project_bound(const ScreenSpace& s, const Vec4& largest) {
 ScreenPoints project_all(const ScreenSpace& s, std::span<const Vec3> positions, int threads) {
   ScreenPoints out;
   out.points.resize(positions.size());
-  constexpr std::size_t kChunk = 16384;
-  const int chunks = static_cast<int>((positions.size() + kChunk - 1) / kChunk);
-  parallel_for(chunks, threads, [&](int c) {
-    const std::size_t end = std::min(positions.size(), (static_cast<std::size_t>(c) + 1) * kChunk);
-    for (std::size_t i = static_cast<std::size_t>(c) * kChunk; i < end; ++i) {
-      out.points[i] = project(s, point(positions[i]));
+  constexpr std::size_t kChunk = 4096;  // ten microseconds' worth
+  std::vector<Vec4> largest_of((positions.size() + kChunk - 1) / kChunk, Vec4(0, 0, 0, 1));
+  parallel_for(static_cast<int>(largest_of.size()), threads, [&](int c) {
+    const std::size_t begin = static_cast<std::size_t>(c) * kChunk,
+                      end = std::min(positions.size(), begin + kChunk);
+    for (std::size_t i = begin; i < end; ++i) out.points[i] = project(s, point(positions[i]));
+    Vec4 largest(0, 0, 0, 1);
+    for (std::size_t i = begin; i < end; ++i) {
+      for (int k = 0; k < 3; ++k) largest[k] = std::max(largest[k], std::fabs(positions[i][k]));
     }
+    largest_of[static_cast<std::size_t>(c)] = largest;
   });
   Vec4 largest(0, 0, 0, 1);
-  for (const Vec3& p : positions) {
-    for (int k = 0; k < 3; ++k) largest[k] = std::max(largest[k], std::fabs(p[k]));
+  for (const Vec4& l : largest_of) {
+    for (int k = 0; k < 3; ++k) largest[k] = std::max(largest[k], l[k]);
   }
   out.bound = project_bound(s, largest);
   return out;

@@ -9,8 +9,9 @@
 namespace gnomon {
 
 // `out` is replaced; ordered as in the EdgeTable. `sides`: light_sides() of the mesh that `edges`
-// was built from.
+// was built from. More than one thread (0: all) pays from some 20 000 edges on, and takes memory
+// for another copy of the result meanwhile.
 void find_silhouette_in_vectors(Silhouette& out, const EdgeTable& edges,
-                                const std::vector<std::int8_t>& sides);
+                                const std::vector<std::int8_t>& sides, int threads = 1);
 
 }  // namespace gnomon
