@@ -97,18 +97,11 @@ std::vector<std::vector<std::int32_t>> our_counts(const Casters& casters,
                                                   const Receivers& receivers,
                                                   const std::vector<Light>& lights, int threads,
                                                   CountStats& stats) {
-  const View& view = receivers.view;
   std::vector<std::vector<std::int32_t>> counts(
       lights.size(), std::vector<std::int32_t>(receivers.triangle.size()));
-  const BandSink sink = [&](const CountBand& band) {
-    for (int row = 0; row < band.rows; ++row) {
-      const std::int32_t* from = band.counts + static_cast<std::ptrdiff_t>(row) * band.stride;
-      std::copy(from, from + band.width,
-                counts[static_cast<std::size_t>(band.light)].begin() +
-                    static_cast<std::ptrdiff_t>(band.first_row + row) * view.width);
-    }
-  };
-  stats = count_shadows(casters, receivers, lights, sink, threads);
+  std::vector<std::int32_t*> to;
+  for (std::vector<std::int32_t>& c : counts) to.push_back(c.data());
+  stats = count_shadows(casters, receivers, lights, to, threads);
   return counts;
 }
 

@@ -23,17 +23,9 @@ std::vector<std::vector<std::int32_t>> counts_of(const Casters& casters, const R
                                                  std::span<const Light> lights, int threads = 2) {
   std::vector<std::vector<std::int32_t>> counts(lights.size(),
                                                 std::vector<std::int32_t>(r.triangle.size(), -1));
-  count_shadows(
-      casters, r, lights,
-      [&](const CountRect& b) {
-        for (int row = 0; row < b.rows; ++row) {
-          std::copy_n(b.counts + static_cast<std::ptrdiff_t>(row) * b.stride, b.columns,
-                      counts[static_cast<std::size_t>(b.light)].begin() +
-                          static_cast<std::ptrdiff_t>(b.first_row + row) * r.view.width +
-                          b.first_column);
-        }
-      },
-      threads);
+  std::vector<std::int32_t*> to;
+  for (std::vector<std::int32_t>& c : counts) to.push_back(c.data());
+  count_shadows(casters, r, lights, to, threads);
   return counts;
 }
 

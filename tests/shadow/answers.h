@@ -59,17 +59,9 @@ inline std::vector<std::vector<std::int32_t>> gathered_counts(const Casters& cas
                                                               int threads) {
   std::vector<std::vector<std::int32_t>> counts(lights.size(),
                                                 std::vector<std::int32_t>(r.triangle.size()));
-  count_shadows(
-      casters, r, lights,
-      [&](const CountRect& b) {
-        for (int row = 0; row < b.rows; ++row) {
-          std::copy_n(b.counts + static_cast<std::ptrdiff_t>(row) * b.stride, b.columns,
-                      counts[static_cast<std::size_t>(b.light)].begin() +
-                          static_cast<std::ptrdiff_t>(b.first_row + row) * r.view.width +
-                          b.first_column);
-        }
-      },
-      threads);
+  std::vector<std::int32_t*> to;
+  for (std::vector<std::int32_t>& c : counts) to.push_back(c.data());
+  count_shadows(casters, r, lights, to, threads);
   return counts;
 }
 

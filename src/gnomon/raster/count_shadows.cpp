@@ -123,6 +123,21 @@ CountStats count_shadows(const Casters& casters, const Receivers& receivers,
       [&](auto& counter, const LightSetup& s, int light) { sink(counter.counts(s, light)); });
 }
 
+CountStats count_shadows(const Casters& casters, const Receivers& receivers,
+                         std::span<const Light> lights, std::span<std::int32_t* const> counts,
+                         int threads) {
+  assert(counts.size() == lights.size());
+  const std::ptrdiff_t width = receivers.view.width;
+  const CountSink copy = [&](const CountRect& part) {
+    std::int32_t* to =
+        counts[static_cast<std::size_t>(part.light)] + part.first_row * width + part.first_column;
+    for (int row = 0; row < part.rows; ++row)
+      std::copy_n(part.counts + static_cast<std::ptrdiff_t>(row) * part.stride, part.columns,
+                  to + row * width);
+  };
+  return count_shadows(casters, receivers, lights, copy, threads);
+}
+
 CountStats mask_shadows(const Casters& casters, const Receivers& receivers,
                         std::span<const Light> lights, std::span<std::uint8_t* const> masks,
                         int threads) {

@@ -57,6 +57,12 @@ struct CountStats {
 CountStats count_shadows(const Casters& casters, const Receivers& receivers,
                          std::span<const Light> lights, const CountSink& sink, int threads = 0);
 
+// The same for whoever wants them whole: counts[i] receives width * height counts, row-major, of
+// light i. Precondition: as many as lights.
+CountStats count_shadows(const Casters& casters, const Receivers& receivers,
+                         std::span<const Light> lights, std::span<std::int32_t* const> counts,
+                         int threads = 0);
+
 // The same for whoever wants no counts, and faster: masks[i] receives width * height bytes,
 // row-major, of light i: 1 where the count is > 0, else 0. Precondition: as many masks as lights.
 CountStats mask_shadows(const Casters& casters, const Receivers& receivers,

@@ -289,15 +289,8 @@ ExactAnswers exact_answers(const ExactView& view, const Light& light, int thread
   out.light = snapped(light);
   const int width = view.samples.view.width;
   out.counts.resize(view.samples.triangle.size());
-  const CountSink sink = [&](const CountRect& part) {
-    for (int row = 0; row < part.rows; ++row) {
-      const std::int32_t* from = part.counts + static_cast<std::ptrdiff_t>(row) * part.stride;
-      std::copy(from, from + part.columns,
-                out.counts.begin() + static_cast<std::ptrdiff_t>(part.first_row + row) * width +
-                    part.first_column);
-    }
-  };
-  count_shadows(*view.casters, view.samples, std::span(&light, 1), sink, threads);
+  std::int32_t* const counts = out.counts.data();
+  count_shadows(*view.casters, view.samples, std::span(&light, 1), std::span(&counts, 1), threads);
   std::vector<std::uint8_t> tied(view.scene->mesh.triangles.size(), 2);  // 2: not known yet
   for (const std::uint32_t t : view.samples.triangle) {
     if (t != kNoTriangle && tied[t] == 2) tied[t] = is_edge_on(view.scene->mesh, t, out.light);
