@@ -84,7 +84,7 @@ HWY_INLINE void TestSquares(const Side& s, int x, int y, int side, const float* 
   Local l;
   FindLocal(s, x, y, step, kSquareInFloat, l);
   for (std::size_t i = 0; i < 16; i += hn::Lanes(f)) {
-    const auto lane = hn::Iota(fi, static_cast<std::int32_t>(i));
+    const auto lane = hn::Add(hn::Set(fi, static_cast<std::int32_t>(i)), hn::Iota(fi, 0));
     const V columns = hn::Mul(hn::ConvertTo(f, hn::And(lane, hn::Set(fi, 3))), Set(step)),
             rows = hn::Mul(hn::ConvertTo(f, hn::ShiftRight<2>(lane)), Set(step));
     const auto at = [&](int k) HWY_ATTR {
@@ -125,7 +125,7 @@ template <class Mask>
 HWY_INLINE void Append(List& list, std::size_t first, Mask mask) {
   const FI fi;
   const hn::RebindToUnsigned<FI> fu;
-  const auto lane = hn::Iota(fi, static_cast<std::int32_t>(first));
+  const auto lane = hn::Add(hn::Set(fi, static_cast<std::int32_t>(first)), hn::Iota(fi, 0));
   // Compressing straight into memory is slow on some processors.
   hn::StoreU(hn::BitCast(fu, hn::Compress(lane, mask)), fu, list.at + list.n);
   list.n += hn::CountTrue(fi, mask);
@@ -252,7 +252,7 @@ HWY_INLINE void FillTile(const TileJob& t) {
   const V zero = hn::Zero(f);
   const auto add = hn::Set(fi, s.add);
   for (std::size_t i = 0; i < 16; i += hn::Lanes(f)) {
-    const auto lane = hn::Iota(fi, static_cast<std::int32_t>(i));
+    const auto lane = hn::Add(hn::Set(fi, static_cast<std::int32_t>(i)), hn::Iota(fi, 0));
     const V columns = hn::ConvertTo(f, hn::And(lane, hn::Set(fi, 3))),
             rows = hn::ConvertTo(f, hn::ShiftRight<2>(lane));
     const auto off = [&](int k) HWY_ATTR {
