@@ -21,8 +21,8 @@ namespace gnomon {
 inline constexpr int kBandRows =
     32;  // counts and nearness of a band stay in the second-level cache
 
-// A tree of edges is built for as many lights: one light costs brute force 8 ns a triangle and the
-// tree 1, and building it, by one thread, 500 to 2000 (docs/silhouettes.md).
+// A tree of edges is built for as many lights: one light costs brute force 2 to 3 ns a triangle and
+// the tree 1, and building it, by one thread, 500 to 2000 (docs/silhouettes.md).
 inline constexpr std::size_t kLightsForTree = 512;
 
 // What all lights share.

@@ -72,7 +72,6 @@ struct Polygon {
   std::int8_t facing = 0;  // exact sign of |c0; c1; c2; e|, scene coordinates
   // Nearness g.a x + g.b y + g.c; NaN where floating point knows nothing of it.
   Linear<double> g;
-  double inverse_ga = 0;  // 1 / g.a where rows may be cut by nearness; 0 where not
   // |nearness - exact| <= error_absolute + error_relative |nearness|; rounded up to float.
   float error_absolute = 0;
   float error_relative = 0;
