@@ -1,8 +1,8 @@
 #include <gnomon/raster/count_bands.h>
 
 #include <algorithm>
-#include <cmath>
 
+#include <gnomon/raster/fill_polygons.h>
 #include <gnomon/raster/fill_strips.h>
 
 namespace gnomon {
@@ -10,9 +10,6 @@ namespace {
 
 static_assert(kBandRows <= kStripRowsMax);
 static_assert(kBandRows % (1 << kCellShift) == 0);  // whole cells
-
-// Rounding of nearness in double and of the sample's own to float, as a share of it.
-constexpr double kNearnessRoundoff = 0x1p-20;
 
 }  // namespace
 
@@ -33,18 +30,23 @@ CountRect BandCounter::counts(const LightSetup& s, int light) {
   memory_.rows_of_counts.assign(
       static_cast<std::size_t>(memory_.rows) * static_cast<std::size_t>(stride), 0);
   std::int32_t* counts = memory_.rows_of_counts.data();
-  if (fill(s)) {
-    take_counts(memory_.counts.get(), memory_.stride, width, memory_.rows, counts, stride);
-  }
-  if (!s.unlit.empty()) {
+  const auto for_each_sample = [&](const auto& f) {
     for (int row = 0; row < memory_.rows; ++row) {
       const std::uint32_t* triangle =
           receivers_.triangle.data() + static_cast<std::ptrdiff_t>(memory_.first_row + row) * width;
       std::int32_t* c = counts + static_cast<std::ptrdiff_t>(row) * stride;
       for (int x = 0; x < width; ++x) {
-        if (triangle[x] != kNoTriangle && s.unlit[triangle[x]] != 0) c[x] = std::max(c[x], 1);
+        if (triangle[x] != kNoTriangle) f(triangle[x], c[x]);
       }
     }
+  };
+  if (s.eye_count != 0) for_each_sample([&](std::uint32_t, std::int32_t& c) { c = s.eye_count; });
+  if (fill(s))
+    take_counts(memory_.counts.get(), memory_.stride, width, memory_.rows, counts, stride);
+  if (!s.unlit.empty()) {
+    for_each_sample([&](std::uint32_t t, std::int32_t& c) {
+      if (s.unlit[t] != 0) c = std::max(c, 1);
+    });
   }
   return {light, 0, memory_.first_row, width, memory_.rows, stride, counts};
 }
@@ -52,7 +54,7 @@ CountRect BandCounter::counts(const LightSetup& s, int light) {
 void BandCounter::mask(const LightSetup& s, std::uint8_t* to) {
   const int width = receivers_.view.width;
   to += static_cast<std::ptrdiff_t>(memory_.first_row) * width;
-  if (!s.unlit.empty()) {
+  if (!s.unlit.empty() || s.eye_count != 0) {
     const CountRect c = counts(s, 0);
     for (int row = 0; row < c.rows; ++row, to += width) {
       const std::int32_t* from = c.counts + static_cast<std::ptrdiff_t>(row) * c.stride;
@@ -65,11 +67,13 @@ void BandCounter::mask(const LightSetup& s, std::uint8_t* to) {
   }
 }
 
-// False if nothing was added to the interleaved counts. C(e) is 0 wherever there are strips.
+// False if nothing was added to the interleaved counts.
 bool BandCounter::fill(const LightSetup& s) {
   const std::span<const std::uint32_t> selected = s.strip_bins.of(band_);
   const std::span<const std::uint32_t> polygons = s.bins.of(band_);
-  if (selected.empty() && polygons.empty()) return false;
+  std::span<const std::uint32_t> casters;
+  if (!view_.casters.empty()) casters = view_.caster_bins.of(band_);
+  if (selected.empty() && polygons.empty() && casters.empty()) return false;
   need_nearness();
   ExactDecisions exact(casters_, view_, receivers_, s);
   StripJob job;
@@ -84,38 +88,28 @@ bool BandCounter::fill(const LightSetup& s) {
   job.stride = memory_.stride;
   job.exact = &exact;
   fill_strips(job);
-  for (const std::uint32_t index : polygons) fill_polygon(s.polygons[index], exact);
+  PolygonJob rest;
+  rest.polygons = s.polygons.data();
+  rest.selected = polygons.data();
+  rest.count = polygons.size();
+  rest.first_row = memory_.first_row;
+  rest.rows = memory_.rows;
+  rest.width = receivers_.view.width;
+  rest.nearness = memory_.nearness.get();
+  rest.counts = memory_.counts.get();
+  rest.stride = memory_.stride;
+  rest.nearness_floor = receivers_.nearness_floor;
+  rest.exact = &exact;
+  fill_polygons(rest);
+  rest.polygons = view_.casters.data();
+  rest.selected = casters.data();
+  rest.count = casters.size();
+  rest.signs = s.triangle_sides.data();
+  fill_polygons(rest);
   stats.spans += exact.spans;
   stats.depths += exact.depths;
   stats.close += exact.close;
   return true;
-}
-
-// Sample by sample, in double.
-void BandCounter::fill_polygon(const Polygon& p, ExactDecisions& exact) {
-  const BandMemory& m = memory_;
-  const int width = receivers_.view.width;
-  const int end = std::min(p.end_row, m.first_row + m.rows);
-  for (int row = std::max(p.first_row, m.first_row); row < end; ++row) {
-    bool undecided = false;
-    Span span = widest_span(p, row, width, undecided);
-    if (span.begin >= span.end) continue;
-    if (undecided) span = exact.span(p, row);
-    const double at_row = p.g.c + p.g.b * (row + kPixelCentre);
-    const std::size_t base = static_cast<std::size_t>((row - m.first_row) / kQuadRows) * m.stride +
-                             static_cast<std::size_t>((row - m.first_row) % kQuadRows);
-    for (int x = span.begin; x < span.end; ++x) {
-      const std::size_t k = base + static_cast<std::size_t>(x) * kQuadRows;
-      const double nearness = at_row + p.g.a * (x + kPixelCentre);
-      const double difference = nearness - static_cast<double>(m.nearness[k]);
-      const double error =
-          (static_cast<double>(p.error_absolute) + receivers_.nearness_floor +
-           (static_cast<double>(p.error_relative) + kNearnessRoundoff) * std::fabs(nearness)) *
-          (1 + 0x1p-20);
-      const bool sure = std::fabs(difference) > error;  // false for NaN
-      if (sure ? difference > 0 : exact.in_front(p, x, row)) m.counts[k] += p.add;
-    }
-  }
 }
 
 void BandCounter::need_nearness() {

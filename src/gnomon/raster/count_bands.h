@@ -1,4 +1,5 @@
-// Bands of rows and the strips over them: the counts of one light after the other.
+// Bands of rows of a parallel view, and the strips and polygons over them: the counts of one light
+// after the other.
 #pragma once
 
 #include <cstddef>
@@ -29,7 +30,7 @@ class BandCounter {
   BandCounter(const Casters& casters, const Receivers& receivers, const ViewSetup& view,
               BandMemory& memory, int band);
 
-  // Of a light by strips; what it returns holds until the next call.
+  // Of a light in bands; what it returns holds until the next call.
   CountRect counts(const LightSetup& s, int light);
   // `to`: of the whole picture.
   void mask(const LightSetup& s, std::uint8_t* to);
@@ -38,7 +39,6 @@ class BandCounter {
 
  private:
   bool fill(const LightSetup& s);
-  void fill_polygon(const Polygon& p, ExactDecisions& exact);
   void need_nearness();
 
   const Casters& casters_;

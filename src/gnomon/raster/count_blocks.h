@@ -1,4 +1,5 @@
-// Blocks of 128 x 128 samples and the sides over them: the counts of one light after the other.
+// Blocks of 128 x 128 samples of a camera, and the sides over them: the counts of one light after
+// the other.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +22,7 @@ class BlockCounter {
   BlockCounter(const Casters& casters, const Receivers& receivers, const ViewSetup& view,
                BlockMemory& memory, int block);
 
-  // Of a light that is not by strips; what it returns holds until the next call.
+  // What it returns holds until the next call.
   CountRect counts(const LightSetup& s, int light);
   // `to`: of the whole picture.
   void mask(const LightSetup& s, std::uint8_t* to);

@@ -45,7 +45,7 @@ CountStats count(const Casters& casters, const Receivers& receivers, std::span<c
                  int threads, const Finish& finish) {
   CountStats stats;
   std::mutex stats_mutex;
-  const ViewSetup view = set_up_view(casters, receivers, lights, threads);
+  const ViewSetup view = set_up_view(casters, receivers, threads);
   // A third of the edges of closed meshes are on the silhouette of a sun at most; the rest is
   // refused when it is set up.
   const std::size_t bytes =
@@ -58,14 +58,11 @@ CountStats count(const Casters& casters, const Receivers& receivers, std::span<c
   std::vector<LightSetup> setups(std::min(batch, lights.size()));
   // Parts of the picture outside, lights inside.
   const auto fill = [&]<class Counter, class Memory>(int parts, std::size_t begin, std::size_t n,
-                                                     bool by_strips, Memories<Memory>& memories) {
+                                                     Memories<Memory>& memories) {
     parallel_for(parts, threads, [&](int part) {
       std::unique_ptr<Memory> memory = memories.take();
       Counter counter(casters, receivers, view, *memory, part);
-      for (std::size_t i = 0; i < n; ++i) {
-        if (setups[i].by_strips == by_strips)
-          finish(counter, setups[i], static_cast<int>(begin + i));
-      }
+      for (std::size_t i = 0; i < n; ++i) finish(counter, setups[i], static_cast<int>(begin + i));
       memories.give(std::move(memory));
       const std::lock_guard lock(stats_mutex);
       stats.spans += counter.stats.spans;
@@ -75,18 +72,16 @@ CountStats count(const Casters& casters, const Receivers& receivers, std::span<c
   };
   Memories<BandMemory> bands;
   Memories<BlockMemory> blocks;
-  const NearnessTiles& tiles = tiles_of(view, receivers);
   for (std::size_t begin = 0; begin < lights.size(); begin += batch) {
     const std::size_t n = std::min(batch, lights.size() - begin);
     set_up_lights(setups, casters, receivers, view,
                   lights.size() >= kLightsForTree ? &tree : nullptr, lights.subspan(begin, n),
                   threads);
-    const auto strips = static_cast<std::size_t>(
-        std::count_if(setups.begin(), setups.begin() + static_cast<std::ptrdiff_t>(n),
-                      [](const LightSetup& s) { return s.by_strips; }));
-    if (strips > 0) fill.template operator()<BandCounter>(view.bands, begin, n, true, bands);
-    if (strips < n) {
-      fill.template operator()<BlockCounter>(tiles.blocks_wide * tiles.blocks_high, begin, n, false,
+    if (in_bands(receivers)) {
+      fill.template operator()<BandCounter>(view.bands, begin, n, bands);
+    } else {
+      const NearnessTiles& tiles = tiles_of(view, receivers);
+      fill.template operator()<BlockCounter>(tiles.blocks_wide * tiles.blocks_high, begin, n,
                                              blocks);
     }
     for (std::size_t i = 0; i < n; ++i) {

@@ -13,8 +13,8 @@ const Polygon& ExactDecisions::polygon(const Strip& s) {
   return of_strip_;
 }
 
-Corners ExactDecisions::corners(const Side& s) const {
-  return s.caster ? corners_of(*casters_.scene, s.id) : corners_of_side(light_, casters_, s.id);
+Corners ExactDecisions::corners(bool caster, std::uint32_t id) const {
+  return caster ? corners_of(*casters_.scene, id) : corners_of_side(light_, casters_, id);
 }
 
 Span ExactDecisions::span(const Strip& s, int row) { return span(polygon(s), row); }
@@ -24,21 +24,21 @@ bool ExactDecisions::in_front(const Strip& s, int column, int row) {
 }
 
 Span ExactDecisions::span(const Polygon& p, int row) {
-  return exact_span(
-      p, {receivers_.view, corners_of_side(light_, casters_, p.id), p.facing, light_.light}, row,
-      spans);
+  return exact_span(p, {receivers_.view, corners(p.caster, p.id), p.facing, light_.light}, row,
+                    spans);
 }
 
 bool ExactDecisions::in_front(const Polygon& p, int column, int row) {
-  return in_front(&p, corners_of_side(light_, casters_, p.id), p.facing, column, row);
+  return in_front(&p, corners(p.caster, p.id), p.facing, column, row);
 }
 
 bool ExactDecisions::covers(const Side& s, int column, int row) {
-  return gnomon::covers(receivers_.view, column, row, corners(s), s.facing, light_.light, spans);
+  return gnomon::covers(receivers_.view, column, row, corners(s.caster, s.id), s.facing,
+                        light_.light, spans);
 }
 
 bool ExactDecisions::in_front(const Side& s, int column, int row) {
-  return in_front(&s, corners(s), s.facing, column, row);
+  return in_front(&s, corners(s.caster, s.id), s.facing, column, row);
 }
 
 bool ExactDecisions::in_front(const void* face, const Corners& c, int facing, int column, int row) {

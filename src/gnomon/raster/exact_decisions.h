@@ -4,13 +4,16 @@
 
 #include <vector>
 
+#include <gnomon/raster/fill_polygons.h>
 #include <gnomon/raster/fill_strips.h>
 #include <gnomon/raster/fill_tiles.h>
 #include <gnomon/raster/light_setup.h>
 
 namespace gnomon {
 
-class ExactDecisions final : public ExactStripDecisions, public ExactSideDecisions {
+class ExactDecisions final : public ExactStripDecisions,
+                             public ExactPolygonDecisions,
+                             public ExactSideDecisions {
  public:
   // All of them must outlive it.
   ExactDecisions(const Casters& casters, const ViewSetup& view, const Receivers& receivers,
@@ -19,9 +22,8 @@ class ExactDecisions final : public ExactStripDecisions, public ExactSideDecisio
 
   Span span(const Strip& s, int row) override;
   bool in_front(const Strip& s, int column, int row) override;
-  // Of light.polygons.
-  Span span(const Polygon& p, int row);
-  bool in_front(const Polygon& p, int column, int row);
+  Span span(const Polygon& p, int row) override;
+  bool in_front(const Polygon& p, int column, int row) override;
   bool covers(const Side& s, int column, int row) override;
   bool in_front(const Side& s, int column, int row) override;
 
@@ -30,7 +32,7 @@ class ExactDecisions final : public ExactStripDecisions, public ExactSideDecisio
 
  private:
   const Polygon& polygon(const Strip& s);
-  Corners corners(const Side& s) const;
+  Corners corners(bool caster, std::uint32_t id) const;
   // `face`: whose corners these are.
   bool in_front(const void* face, const Corners& c, int facing, int column, int row);
 

@@ -23,42 +23,50 @@ bool is_caster(const Casters& c, std::uint32_t triangle) {
 
 namespace {
 
-// Under which light, if any, sides are strips.
-StripLight strips_under(const ViewSetup& v, const Receivers& r, const Light& light) {
-  // Casters in front of receivers have no strips, and are counted together with the sides.
-  if (!is_parallel(r.view) || light.w != 0 || r.casters_in_front) return {};
-  return strip_light(project(v.space, -light), v.screen.bound,
-                     project_bound(v.space, glm::abs(light)), r.nearness_floor, r.view.width,
-                     r.view.height);
+// Adds the polygon of three corners, where samples may lie behind it. `rows`: that it touches at
+// most. `p`: facing and nearness are made, add and id.
+void add_polygon(std::vector<Polygon>& to, const ViewSetup& v, const Receivers& r, Polygon& p,
+                 const PolygonEquations<double>& q, const EquationErrors& errors,
+                 std::pair<int, int> rows) {
+  const LeastCells& cells = cells_of(v, r);
+  const auto touched = [&](double least) {
+    const Span columns = set_rows(p, q, errors, v.space, least);
+    p.first_row = std::max(p.first_row, rows.first);
+    p.end_row = std::min(p.end_row, rows.second);
+    return columns;
+  };
+  const Span columns = touched(static_cast<double>(cells.levels.back().least[0]));
+  if (p.first_row >= p.end_row || columns.begin >= columns.end) return;
+  const double least =
+      least_under(cells, columns.begin, columns.end - 1, p.first_row, p.end_row - 1);
+  if (std::isinf(least) && least > 0) return;  // there are no samples
+  touched(least);
+  if (p.first_row < p.end_row) to.push_back(p);
 }
 
-double least_nearness(const LeastCells& cells) {
-  return static_cast<double>(cells.levels.back().least[0]);
-}
-double least_nearness(const NearnessTiles& tiles) {
-  return static_cast<double>(
-      *std::min_element(tiles.fields.least.begin(), tiles.fields.least.end()));
-}
-
-// A side that is no strip. `rows`: that it touches at most.
-void add_polygon(const LightSetup& s, SetupRun& run, const ViewSetup& v, const Casters& casters,
-                 const Receivers& r, const UnsureStrip& unsure) {
-  const SilhouetteEdge& e = s.silhouette[unsure.id];
+// A side that is no strip.
+void add_side(const LightSetup& s, SetupRun& run, const ViewSetup& v, const Casters& casters,
+              const Receivers& r, std::uint32_t index, std::pair<int, int> rows) {
+  const SilhouetteEdge& e = s.silhouette[index];
   const Vec3 &a = casters.scene->mesh.positions[e.a], &b = casters.scene->mesh.positions[e.b];
-  const PolygonEquations<double> q = equations_of_side(s, v, unsure.id);
+  const PolygonEquations<double> q = equations_of_side(s, v, index);
   if (std::fabs(q.f) <= s.errors.f && seen_end_on(r.view, a, b)) return;
-  Polygon& p = run.polygons.emplace_back();
+  Polygon p;
   set_up(p, q, s.errors, v.space, r.view, side_corners(a, b), s.light, run.stats);
-  const double least = least_nearness(cells_of(v, r));
-  if (!set_rows_of_strip(p, v.screen.points[e.a], v.screen.points[e.b], s.minus_light,
-                         v.screen.bound, s.strip_light.light, v.space, least)) {
-    set_rows(p, q, s.errors, v.space, least);
-  }
-  p.first_row = std::max(p.first_row, unsure.first_row);
-  p.end_row = std::min(p.end_row, unsure.end_row);
   p.add = -e.multiplicity * p.facing;
-  p.id = unsure.id;
-  if (p.first_row >= p.end_row) run.polygons.pop_back();
+  p.id = index;
+  add_polygon(run.polygons, v, r, p, q, s.errors, rows);
+}
+
+// The triangles [begin, begin + kRun) that cast and do not receive: rays may cross them before they
+// reach their sample. One that receives cannot be in front of the first receiver.
+void find_casters(std::vector<std::uint32_t>& ids, std::size_t begin, const Casters& casters) {
+  const Scene& scene = *casters.scene;
+  ids.clear();
+  for (std::size_t i = begin; i < std::min(scene.mesh.triangles.size(), begin + kRun); ++i) {
+    const auto t = static_cast<std::uint32_t>(i);
+    if (is_caster(casters, t) && !receives(scene, t)) ids.push_back(t);
+  }
 }
 
 // for_each(f) calls f(index, first row, end row) for each item, which is not empty; the same twice.
@@ -74,6 +82,40 @@ void bin(Bins& bins, int bands, const ForEach& for_each) {
   for_each([&](std::size_t index, int first, int end) {  // first[b + 1] moves on to first[b + 2]
     for (int b = first / kBandRows; b <= (end - 1) / kBandRows; ++b)
       bins.items[bins.first[static_cast<std::size_t>(b) + 1]++] = static_cast<std::uint32_t>(index);
+  });
+}
+
+// Casters in front of receivers, whatever the light (facings of triangles do not depend on it).
+void add_casters(ViewSetup& v, const Casters& casters, const Receivers& r, int threads) {
+  const Scene& scene = *casters.scene;
+  const std::vector<Vec3>& at = scene.mesh.positions;
+  const EquationErrors errors =
+      equation_errors(v.screen.bound, v.screen.bound, v.screen.bound, r.view.width, r.view.height);
+  std::vector<std::vector<Polygon>> runs((scene.mesh.triangles.size() + kRun - 1) / kRun);
+  parallel_for(static_cast<int>(runs.size()), threads, [&](int k) {
+    const auto run = static_cast<std::size_t>(k);
+    std::vector<std::uint32_t> ids;
+    find_casters(ids, run * kRun, casters);
+    ExactStats stats;
+    for (const std::uint32_t id : ids) {
+      const Triangle& t = scene.mesh.triangles[id];
+      const PolygonEquations<double> q =
+          polygon_equations(v.screen.points[t[0]], v.screen.points[t[1]], v.screen.points[t[2]]);
+      if (std::fabs(q.f) <= errors.f && seen_edge_on(r.view, at[t[0]], at[t[1]], at[t[2]]))
+        continue;  // a wall seen from above
+      Polygon p;
+      set_up(p, q, errors, v.space, r.view, corners_of(scene, id), Light(0.0), stats);
+      p.add = p.facing;  // times the light's side: +1 from the lit to the unlit side
+      p.id = id;
+      p.caster = true;
+      add_polygon(runs[run], v, r, p, q, errors, {0, r.view.height});
+    }
+  });
+  for (const std::vector<Polygon>& run : runs)
+    v.casters.insert(v.casters.end(), run.begin(), run.end());
+  bin(v.caster_bins, v.bands, [&](const auto& f) {
+    for (std::size_t i = 0; i < v.casters.size(); ++i)
+      f(i, v.casters[i].first_row, v.casters[i].end_row);
   });
 }
 
@@ -102,29 +144,36 @@ void find_sides(LightSetup& s, const Casters& casters, const Receivers& r, const
   s.errors =
       equation_errors(v.screen.bound, v.screen.bound, light_bound, r.view.width, r.view.height);
   s.looks_with_light = looks_with_light(r.view, s.light);
-  s.strip_light = strips_under(v, r, s.light);
-  s.by_strips = s.strip_light.usable;
+  s.strip_light = {};
+  if (in_bands(r) && s.light.w == 0) {
+    s.strip_light = strip_light(s.minus_light, v.screen.bound, light_bound, r.nearness_floor,
+                                r.view.width, r.view.height);
+  }
   s.edge_runs = s.looks_with_light ? 0 : (s.silhouette.size() + kRun - 1) / kRun;
   const std::size_t caster_runs =
-      r.casters_in_front ? (scene.mesh.triangles.size() + kRun - 1) / kRun : 0;
+      r.casters_in_front && !in_bands(r) ? (scene.mesh.triangles.size() + kRun - 1) / kRun : 0;
   s.runs.resize(s.edge_runs + caster_runs);
   // With room to grow: the next light has another silhouette.
   const std::size_t most = s.runs.size() * kRun;
-  if (s.by_strips && s.strips.size() < most) {
-    s.strips.resize(most + most / 4);
-  } else if (!s.by_strips && s.room_for_sides < most) {
+  if (s.strip_light.usable && s.strips.size() < most) s.strips.resize(most + most / 4);
+  if (!in_bands(r) && s.room_for_sides < most) {
     s.room_for_sides = most + most / 4;
     s.sides = std::make_unique_for_overwrite<Side[]>(s.room_for_sides);
   }
 }
 
-// The second, over a run of edges: their strips, and polygons for what strips cannot be trusted
-// with.
-void make_strips_of_run(LightSetup& s, std::size_t index, const Casters& casters,
-                        const Receivers& r, const ViewSetup& v) {
+// The second, in bands: the strips of a run, and polygons for what is none.
+void set_up_run_for_bands(LightSetup& s, std::size_t index, const Casters& casters,
+                          const Receivers& r, const ViewSetup& v) {
   SetupRun& run = s.runs[index];
-  run.ids.clear();
   const std::size_t begin = index * kRun, end = std::min(s.silhouette.size(), begin + kRun);
+  if (!s.strip_light.usable) {
+    for (std::size_t i = begin; i < end; ++i) {
+      add_side(s, run, v, casters, r, static_cast<std::uint32_t>(i), {0, r.view.height});
+    }
+    return;
+  }
+  run.ids.clear();
   for (std::size_t i = begin; i < end; ++i) {
     const SilhouetteEdge& e = s.silhouette[i];
     const ScreenPoint<double>&a = v.screen.points[e.a], &b = v.screen.points[e.b];
@@ -140,12 +189,13 @@ void make_strips_of_run(LightSetup& s, std::size_t index, const Casters& casters
   run.made = make_strips(s.silhouette.data(), run.ids.data(), run.ids.size(),
                          v.screen.points.data(), s.strip_light, cells_of(v, r), v.space.orientation,
                          s.strips.data() + begin, run.unsure);
-  for (const UnsureStrip& u : run.unsure) add_polygon(s, run, v, casters, r, u);
+  for (const UnsureStrip& u : run.unsure)
+    add_side(s, run, v, casters, r, u.id, {u.first_row, u.end_row});
 }
 
-// The same as sides, and the blocks that they reach.
-void make_sides_of_run(LightSetup& s, std::size_t index, const Casters& casters, const Receivers& r,
-                       const ViewSetup& v) {
+// The same in blocks: the sides of a run, and which blocks they reach.
+void set_up_run_for_blocks(LightSetup& s, std::size_t index, const Casters& casters,
+                           const Receivers& r, const ViewSetup& v) {
   SetupRun& run = s.runs[index];
   const Scene& scene = *casters.scene;
   const std::vector<Vec3>& positions = scene.mesh.positions;
@@ -154,7 +204,8 @@ void make_sides_of_run(LightSetup& s, std::size_t index, const Casters& casters,
   SideSetup setup;
   setup.space = &v.space;
   setup.points = v.screen.points.data();
-  setup.least_nearness = least_nearness(tiles);
+  setup.least_nearness =
+      static_cast<double>(*std::min_element(tiles.fields.least.begin(), tiles.fields.least.end()));
   setup.nearness_floor = r.nearness_floor;
   if (index < s.edge_runs) {
     setup.errors = s.errors;
@@ -167,23 +218,10 @@ void make_sides_of_run(LightSetup& s, std::size_t index, const Casters& casters,
         make_sides(setup, s.silhouette.data(), first, std::min(s.silhouette.size(), first + kRun),
                    s.minus_light, s.sides.get() + first);
   } else {
-    // Casters that do not receive: rays may cross them before they reach their sample. One that
-    // receives cannot be in front of the first receiver.
-    const std::size_t begin = (index - s.edge_runs) * kRun,
-                      end = std::min(scene.mesh.triangles.size(), begin + kRun);
-    run.ids.clear();
-    for (std::size_t i = begin; i < end; ++i) {
-      const auto t = static_cast<std::uint32_t>(i);
-      if (is_caster(casters, t) && !receives(scene, t)) run.ids.push_back(t);
-    }
+    find_casters(run.ids, (index - s.edge_runs) * kRun, casters);
     setup.errors = equation_errors(v.screen.bound, v.screen.bound, v.screen.bound, r.view.width,
                                    r.view.height);
     setup.facing = [&](std::uint32_t id) {
-      const Triangle& t = scene.mesh.triangles[id];
-      if (is_parallel(r.view) &&
-          seen_edge_on(r.view, positions[t[0]], positions[t[1]], positions[t[2]])) {
-        return 0;  // a wall seen from above
-      }
       return facing(r.view, corners_of(scene, id), s.light, run.stats);
     };
     run.made = make_caster_sides(setup, scene.mesh.triangles.data(), run.ids.data(), run.ids.size(),
@@ -200,14 +238,14 @@ void set_up_run(LightSetup& s, std::size_t index, const Casters& casters, const 
   run.made = 0;
   run.polygons.clear();  // but keep their memory: pages that the system must not clear again
   run.stats = {};
-  if (s.by_strips) {
-    make_strips_of_run(s, index, casters, r, v);
+  if (in_bands(r)) {
+    set_up_run_for_bands(s, index, casters, r, v);
   } else {
-    make_sides_of_run(s, index, casters, r, v);
+    set_up_run_for_blocks(s, index, casters, r, v);
   }
 }
 
-void bin_strips(LightSetup& s, int bands) {
+void bin_to_bands(LightSetup& s, int bands) {
   s.polygons.clear();
   for (const SetupRun& run : s.runs)
     s.polygons.insert(s.polygons.end(), run.polygons.begin(), run.polygons.end());
@@ -223,7 +261,7 @@ void bin_strips(LightSetup& s, int bands) {
   });
 }
 
-void bin_sides(LightSetup& s, const NearnessTiles& tiles) {
+void bin_to_blocks(LightSetup& s, const NearnessTiles& tiles) {
   const std::size_t blocks =
       static_cast<std::size_t>(tiles.blocks_wide) * static_cast<std::size_t>(tiles.blocks_high);
   s.block_counts.assign(blocks, 0);
@@ -249,10 +287,10 @@ void finish_light(LightSetup& s, const Casters& casters, const Receivers& r, con
   for (const SetupRun& run : s.runs) s.stats += run.stats;
   s.eye_count = count_between_eye_and_light(scene.mesh, casters.selected, casters.boxes, r.view,
                                             s.light, threads, s.stats);
-  if (s.by_strips) {
-    bin_strips(s, v.bands);
+  if (in_bands(r)) {
+    bin_to_bands(s, v.bands);
   } else {
-    bin_sides(s, tiles_of(v, r));
+    bin_to_blocks(s, tiles_of(v, r));
   }
   s.unlit.clear();
   if (r.receivers_not_casting) {
@@ -277,20 +315,14 @@ Corners corners_of_side(const LightSetup& s, const Casters& casters, std::uint32
   return side_corners(casters.scene->mesh.positions[e.a], casters.scene->mesh.positions[e.b]);
 }
 
-ViewSetup set_up_view(const Casters& casters, const Receivers& r, std::span<const Light> lights,
-                      int threads) {
+ViewSetup set_up_view(const Casters& casters, const Receivers& r, int threads) {
   ViewSetup v;
   v.bands = (r.view.height + kBandRows - 1) / kBandRows;
   v.space = screen_space(r.view);
   v.screen = project_all(v.space, casters.scene->mesh.positions, threads);
-  bool strips = false, sides = false;
-  for (const Light& light : lights) {
-    const bool usable = strips_under(v, r, snapped(light)).usable;
-    strips |= usable;
-    sides |= !usable;
-  }
-  if (strips && r.cells.levels.empty()) v.made_cells = least_cells(*casters.scene, r, threads);
-  if (sides && r.tiles.width == 0) v.made_tiles = nearness_tiles(r, threads);
+  if (in_bands(r) && r.cells.levels.empty()) v.made_cells = least_cells(*casters.scene, r, threads);
+  if (!in_bands(r) && r.tiles.width == 0) v.made_tiles = nearness_tiles(r, threads);
+  if (in_bands(r) && r.casters_in_front) add_casters(v, casters, r, threads);
   return v;
 }
 

@@ -25,6 +25,14 @@ inline constexpr int kBandRows =
 // the tree 1, and building it, by one thread, 500 to 2000 (docs/silhouettes.md).
 inline constexpr std::size_t kLightsForTree = 512;
 
+// CSR: what touches each band or block.
+struct Bins {
+  std::vector<std::uint32_t> first, items;
+  std::span<const std::uint32_t> of(std::size_t bin) const {
+    return {items.data() + first[bin], first[bin + 1] - first[bin]};
+  }
+};
+
 // What all lights share.
 struct ViewSetup {
   ScreenSpace space;
@@ -32,14 +40,8 @@ struct ViewSetup {
   LeastCells made_cells;     // where the receivers have none and need them
   NearnessTiles made_tiles;  // the same
   int bands = 0;
-};
-
-// CSR: what touches each band or block.
-struct Bins {
-  std::vector<std::uint32_t> first, items;
-  std::span<const std::uint32_t> of(std::size_t bin) const {
-    return {items.data() + first[bin], first[bin + 1] - first[bin]};
-  }
+  std::vector<Polygon> casters;  // of a parallel view: that receivers may lie behind; add: facing
+  Bins caster_bins;
 };
 
 // Silhouette edges are set up in runs of this many, in parallel. The strips or sides of a run begin
@@ -61,17 +63,18 @@ struct LightSetup {
   std::vector<std::int8_t> triangle_sides;  // as light_sides(); empty where they are not needed
   bool looks_with_light = false;            // there are no sides
   StripLight strip_light;
-  bool by_strips = false;  // in bands, else by sides in blocks
   ScreenPoint<double> minus_light{};
   EquationErrors errors;  // of the sides' equations
   std::vector<SetupRun> runs;
-  std::size_t edge_runs = 0;  // of runs; then those of casters
+  std::size_t edge_runs = 0;  // of runs; then, in blocks, those of casters
 
+  // In bands.
   std::vector<Strip> strips;
   Bins strip_bins;
-  std::vector<Polygon> polygons;  // what strips cannot be trusted with; id: index into silhouette
+  std::vector<Polygon> polygons;  // sides that are no strips; id: index into silhouette
   Bins bins;                      // of the polygons
 
+  // In blocks.
   std::unique_ptr<Side[]> sides;  // not set to zero: much of it is never used
   std::size_t room_for_sides = 0;
   Bins side_bins;                          // by block
@@ -88,6 +91,9 @@ struct LightSetup {
 Corners corners_of(const Scene& scene, std::uint32_t triangle);
 bool is_caster(const Casters& c, std::uint32_t triangle);
 
+// Parallel views are counted in bands, by strips and polygons; cameras in blocks, by sides.
+inline bool in_bands(const Receivers& r) { return is_parallel(r.view); }
+
 inline const LeastCells& cells_of(const ViewSetup& v, const Receivers& r) {
   return r.cells.levels.empty() ? v.made_cells : r.cells;
 }
@@ -99,9 +105,7 @@ PolygonEquations<double> equations_of_side(const LightSetup& s, const ViewSetup&
                                            std::uint32_t index);
 Corners corners_of_side(const LightSetup& s, const Casters& casters, std::uint32_t index);
 
-// `lights`: all that will be set up for it.
-ViewSetup set_up_view(const Casters& casters, const Receivers& receivers,
-                      std::span<const Light> lights, int threads);
+ViewSetup set_up_view(const Casters& casters, const Receivers& receivers, int threads);
 
 // As many setups as lights; what they hold is replaced and their memory used again. `tree`: of the
 // casters' edges, or nullptr.

@@ -6,6 +6,8 @@
 #include <tuple>
 #include <utility>
 
+#include <glm/common.hpp>
+
 #include <gnomon/core/exact.h>
 
 namespace gnomon {
@@ -38,9 +40,6 @@ std::pair<RowEdge, EdgeKind> row_edge(const Linear<double>& line, const Linear<d
   return {e, EdgeKind::kFlat};
 }
 
-// Rows of a strip are widened by one; its corners must be known this well for that to be enough.
-constexpr double kSurePixels = 0.25;
-
 }  // namespace
 
 float rounded_up(double x) {
@@ -66,6 +65,7 @@ void set_up(Polygon& p, const PolygonEquations<double>& q, const EquationErrors&
   p.facing = static_cast<std::int8_t>(certain ? (q.f > 0 ? space.orientation : -space.orientation)
                                               : facing(view, corners, light, stats));
   const double inside = p.facing * space.orientation;
+  p.inverse_ga = 0;
   p.error_absolute = p.error_relative = 0;
   for (int k = 0; k < 3; ++k)
     std::tie(p.edges[k], p.kinds[k]) =
@@ -81,6 +81,8 @@ void set_up(Polygon& p, const PolygonEquations<double>& q, const EquationErrors&
       std::fabs(p.g.a) * space.width + std::fabs(p.g.b) * space.height + std::fabs(p.g.c);
   p.error_absolute = rounded_up(errors.n / least * kInflate + kNearnessRoundoff * reach);
   p.error_relative = rounded_up(errors.f / least * kInflate);
+  // A cut by nearness is an optimisation: only where it is sharper than the picture is wide.
+  if (std::fabs(p.g.a) * space.width > 4 * p.error_absolute) p.inverse_ga = 1 / p.g.a;
 }
 
 void refine_nearness(Polygon& p, const ScreenPoint<double> (&corners)[3],
@@ -120,7 +122,7 @@ void refine_nearness(Polygon& p, const ScreenPoint<double> (&corners)[3],
   p.error_relative = 0;
 }
 
-void set_rows(Polygon& p, const PolygonEquations<double>& q, const EquationErrors& errors,
+Span set_rows(Polygon& p, const PolygonEquations<double>& q, const EquationErrors& errors,
               const ScreenSpace& space, double least) {
   const double w = space.width, h = space.height;
   std::array<Vec2, 12> corners{Vec2{0, 0}, Vec2{w, 0}, Vec2{w, h}, Vec2{0, h}}, next;
@@ -146,57 +148,21 @@ void set_rows(Polygon& p, const PolygonEquations<double>& q, const EquationError
         p.error_absolute * 2 + (p.error_relative + kNearnessRoundoff) * 2 * std::fabs(least);
     clip(p.g.a, p.g.b, p.g.c - least + margin);
   }
-  double low = h, high = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    low = std::min(low, corners[i].y);
-    high = std::max(high, corners[i].y);
-  }
-  p.first_row = n == 0 ? 0 : std::max(0, static_cast<int>(std::floor(low)) - 1);
-  p.end_row = n == 0 ? 0 : std::min(space.height, static_cast<int>(std::ceil(high)) + 1);
-}
-
-bool set_rows_of_strip(Polygon& p, const ScreenPoint<double>& a, const ScreenPoint<double>& b,
-                       const ScreenPoint<double>& behind, const ScreenPoint<Bound>& point_bound,
-                       const ScreenPoint<Bound>& light_bound, const ScreenSpace& space,
-                       double least) {
-  if (std::isnan(p.g.c)) return false;
-  const double margin = p.error_absolute * 2 +
-                        (p.error_relative + kNearnessRoundoff) * 2 * std::fabs(least) +
-                        2 * point_bound.z.error;
-  constexpr double kForever = std::numeric_limits<double>::infinity();
-  double low_x = kForever, high_x = -kForever, low_y = kForever, high_y = -kForever;
-  bool reaches = false;
-  const double sinks = -behind.z - light_bound.z.error;  // at least, per length of `behind`
-  for (const ScreenPoint<double>* corner : {&a, &b}) {
-    // How far the strip runs, in lengths of `behind`, before it is too deep to matter.
-    const double length = sinks > 0 ? (corner->z - least + margin) / sinks : kForever;
-    reaches = reaches || length >= 0;
-    const double run = std::max(length, 0.0);
-    const auto far_end = [&](double from, double step, double error) {
-      const double reach = std::fabs(step) + error;
-      return reach == 0 ? from : from + std::copysign(run * reach, step);
-    };
-    const double x = far_end(corner->x, behind.x, light_bound.x.error);
-    const double y = far_end(corner->y, behind.y, light_bound.y.error);
-    // The margin of one row below pays for errors of the corners and for a step whose sign is not
-    // known.
-    const double unsure =
-        std::max(point_bound.x.error, point_bound.y.error) +
-        (std::isfinite(run) ? run : 0.0) * std::max(light_bound.x.error, light_bound.y.error);
-    const bool sure_direction = std::isfinite(run) || (std::fabs(behind.x) > light_bound.x.error &&
-                                                       std::fabs(behind.y) > light_bound.y.error);
-    if (!(unsure < kSurePixels) || !sure_direction) return false;
-    low_x = std::min({low_x, corner->x, x});
-    high_x = std::max({high_x, corner->x, x});
-    low_y = std::min({low_y, corner->y, y});
-    high_y = std::max({high_y, corner->y, y});
-  }
+  p.least = least;
   p.first_row = p.end_row = 0;
-  if (!reaches || high_x < -1 || low_x > space.width + 1 || high_y < -1 || low_y > space.height + 1)
-    return true;
-  p.first_row = static_cast<int>(std::max(0.0, std::floor(low_y) - 1));
-  p.end_row = static_cast<int>(std::min<double>(space.height, std::ceil(high_y) + 1));
-  return true;
+  if (n == 0) return {0, 0};
+  Vec2 low(w, h), high(0, 0);
+  for (std::size_t i = 0; i < n; ++i) {
+    low = glm::min(low, corners[i]);
+    high = glm::max(high, corners[i]);
+  }
+  const auto from = [](double v) { return std::max(0, static_cast<int>(std::floor(v)) - 1); };
+  const auto to = [](double v, int most) {
+    return std::min(most, static_cast<int>(std::ceil(v)) + 1);
+  };
+  p.first_row = from(low.y);
+  p.end_row = to(high.y, space.height);
+  return {from(low.x), to(high.x, space.width)};
 }
 
 Span widest_span(const Polygon& p, int row, int width, bool& undecided) {

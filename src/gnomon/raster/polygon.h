@@ -72,12 +72,15 @@ struct Polygon {
   std::int8_t facing = 0;  // exact sign of |c0; c1; c2; e|, scene coordinates
   // Nearness g.a x + g.b y + g.c; NaN where floating point knows nothing of it.
   Linear<double> g;
+  double inverse_ga = 0;  // 1 / g.a where rows may be cut by nearness; 0 where not
+  double least = -std::numeric_limits<double>::infinity();  // no sample under it is less near
   // |nearness - exact| <= error_absolute + error_relative |nearness|; rounded up to float.
   float error_absolute = 0;
   float error_relative = 0;
   std::int32_t add = 0;  // what a sample behind it adds to its count
   std::int32_t first_row = 0, end_row = 0;
   std::uint32_t id = 0;  // whose it is: index into sides or triangles (the caller's)
+  bool caster = false;   // a triangle's, not a side's
 };
 
 // Not below x.
@@ -95,24 +98,15 @@ void set_up(Polygon& p, const PolygonEquations<double>& q, const EquationErrors&
 void refine_nearness(Polygon& p, const ScreenPoint<double> (&corners)[3],
                      const ScreenPoint<Bound>& errors, const ScreenSpace& space);
 
-// Rows of the picture that the polygon may touch where its nearness exceeds `least`; clips the
-// picture by its edges in floating point, one row wider than found. Sets first_row, end_row (empty:
-// first_row >= end_row).
-void set_rows(Polygon& p, const PolygonEquations<double>& q, const EquationErrors& errors,
-              const ScreenSpace& space, double least);
-
-// The same for the side over the edge a b in a parallel view with a light at infinity: a strip from
-// the edge along `behind` (minus the light), which ends where it is deeper than `least`. False, and
-// nothing set, where the strip is seen too nearly edge-on or its corners are known too badly: then
-// set_rows() has to be asked.
-bool set_rows_of_strip(Polygon& p, const ScreenPoint<double>& a, const ScreenPoint<double>& b,
-                       const ScreenPoint<double>& behind, const ScreenPoint<Bound>& point_bound,
-                       const ScreenPoint<Bound>& light_bound, const ScreenSpace& space,
-                       double least);
-
 struct Span {
   int begin = 0, end = 0;  // pixels of a row: [begin, end)
 };
+
+// Rows of the picture that the polygon may touch where its nearness exceeds `least`; clips the
+// picture by its edges in floating point, one row wider than found. Sets first_row, end_row (empty:
+// first_row >= end_row) and least. Returns the columns, as wide.
+Span set_rows(Polygon& p, const PolygonEquations<double>& q, const EquationErrors& errors,
+              const ScreenSpace& space, double least);
 
 // The pixels of a row that the polygon may cover, by floating point; `undecided`: exact_span() has
 // to be asked.
