@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include <gnomon/io/crs.h>
-#include <gnomon/raster/add_where_positive.h>
+#include <gnomon/raster/add_in_shadow.h>
 #include <gnomon/sun/time_zone.h>
 
 #include "summary_parts.h"

@@ -8,7 +8,7 @@
 
 #include "soup.h"
 
-#include <gnomon/raster/add_where_positive.h>
+#include <gnomon/raster/add_in_shadow.h>
 #include <gnomon/raster/count_shadows.h>
 #include <gnomon/raster/least_cells.h>
 #include <gnomon/raster/visible_surfaces.h>

@@ -8,7 +8,7 @@
 #include "soup.h"
 
 #include <gnomon/gnomon.h>
-#include <gnomon/raster/add_where_positive.h>
+#include <gnomon/raster/add_in_shadow.h>
 #include <gnomon/raster/first_and_last_lit.h>
 
 namespace gnomon {
@@ -32,19 +32,18 @@ TEST(FirstAndLastLit, KernelEqualsTheSpecificationOnEachInstructionSet) {
   for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
     hwy::SetSupportedTargetsForTest(target);
     for (int n = 0; n < 200; ++n) {
-      std::vector<std::int32_t> counts(static_cast<std::size_t>(n));
-      std::vector<std::uint16_t> first(counts.size()), last(counts.size());
-      for (std::size_t k = 0; k < counts.size(); ++k) {
-        constexpr std::int32_t kCounts[] = {0, 1, -1, 40000, 65536, -65536, 0x7fffffff};
-        counts[k] = kCounts[random() % 7];
+      std::vector<std::uint8_t> mask(static_cast<std::size_t>(n));
+      std::vector<std::uint16_t> first(mask.size()), last(mask.size());
+      for (std::size_t k = 0; k < mask.size(); ++k) {
+        mask[k] = static_cast<std::uint8_t>(random() % 2);
         first[k] = static_cast<std::uint16_t>(random());
         last[k] = static_cast<std::uint16_t>(random());
       }
       std::vector<std::uint16_t> first_too = first, last_too = last;
       const auto begin = static_cast<std::uint16_t>(random());
       const auto end = static_cast<std::uint16_t>(random());
-      keep_first_and_last_lit(counts.data(), n, begin, end, first.data(), last.data());
-      keep_first_and_last_lit_reference(counts.data(), n, begin, end, first_too.data(),
+      keep_first_and_last_lit(mask.data(), n, begin, end, first.data(), last.data());
+      keep_first_and_last_lit_reference(mask.data(), n, begin, end, first_too.data(),
                                         last_too.data());
       ASSERT_EQ(first, first_too) << instruction_set() << " " << n;
       ASSERT_EQ(last, last_too) << instruction_set() << " " << n;

@@ -27,7 +27,7 @@
 #include "shadow/vienna_block.h"
 #include "soup.h"
 
-#include <gnomon/raster/add_where_positive.h>
+#include <gnomon/raster/add_in_shadow.h>
 
 namespace gnomon {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "soup.h"
 
-#include <gnomon/raster/add_where_positive.h>
+#include <gnomon/raster/add_in_shadow.h>
 #include <gnomon/shadow/cast_shadows.h>
 
 namespace gnomon {

@@ -51,9 +51,21 @@ CountRect BandCounter::counts(const LightSetup& s, int light) {
   return {light, 0, memory_.first_row, width, memory_.rows, stride, counts};
 }
 
-void BandCounter::mask(const LightSetup& s, std::uint8_t* to) {
+MaskRect BandCounter::mask(const LightSetup& s, int light) {
   const int width = receivers_.view.width;
-  to += static_cast<std::ptrdiff_t>(memory_.first_row) * width;
+  memory_.rows_of_mask.resize(static_cast<std::size_t>(kBandRows) *
+                              static_cast<std::size_t>(width));
+  take(s, memory_.rows_of_mask.data());
+  return {light, 0, memory_.first_row, width, memory_.rows, width, memory_.rows_of_mask.data()};
+}
+
+void BandCounter::mask(const LightSetup& s, std::uint8_t* to) {
+  take(s, to + static_cast<std::ptrdiff_t>(memory_.first_row) * receivers_.view.width);
+}
+
+// `to`: of the band, rows as long as the picture is wide.
+void BandCounter::take(const LightSetup& s, std::uint8_t* to) {
+  const int width = receivers_.view.width;
   if (!s.unlit.empty() || s.eye_count != 0) {
     const CountRect c = counts(s, 0);
     for (int row = 0; row < c.rows; ++row, to += width) {

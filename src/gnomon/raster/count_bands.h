@@ -23,6 +23,7 @@ struct BandMemory {
   hwy::AlignedFreeUniquePtr<float[]> nearness;
   hwy::AlignedFreeUniquePtr<std::int32_t[]> counts;  // zero between lights
   std::vector<std::int32_t> rows_of_counts;
+  std::vector<std::uint8_t> rows_of_mask;
 };
 
 class BandCounter {
@@ -32,6 +33,7 @@ class BandCounter {
 
   // Of a light in bands; what it returns holds until the next call.
   CountRect counts(const LightSetup& s, int light);
+  MaskRect mask(const LightSetup& s, int light);
   // `to`: of the whole picture.
   void mask(const LightSetup& s, std::uint8_t* to);
 
@@ -39,6 +41,7 @@ class BandCounter {
 
  private:
   bool fill(const LightSetup& s);
+  void take(const LightSetup& s, std::uint8_t* to);
   void need_nearness();
 
   const Casters& casters_;

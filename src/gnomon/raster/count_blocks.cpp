@@ -29,12 +29,22 @@ CountRect BlockCounter::counts(const LightSetup& s, int light) {
   return {light, first_column_, first_row_, columns_, rows_, kBlock, counts};
 }
 
+MaskRect BlockCounter::mask(const LightSetup& s, int light) {
+  memory_.rows_of_mask.resize(static_cast<std::size_t>(kBlock) * kBlock);
+  take(s, memory_.rows_of_mask.data(), kBlock);
+  return {light, first_column_, first_row_, columns_, rows_, kBlock, memory_.rows_of_mask.data()};
+}
+
 void BlockCounter::mask(const LightSetup& s, std::uint8_t* to) {
-  fill(s);
   const std::ptrdiff_t width = tiles_.width;
-  to += first_row_ * width + first_column_;
-  take_block_mask(memory_.counts, tiles_, block_, to, width);
-  for_each_unlit(s, [&](int column, int row) { to[row * width + column] = 1; });
+  take(s, to + first_row_ * width + first_column_, width);
+}
+
+// `to`: of the block's first sample.
+void BlockCounter::take(const LightSetup& s, std::uint8_t* to, std::ptrdiff_t stride) {
+  fill(s);
+  take_block_mask(memory_.counts, tiles_, block_, to, stride);
+  for_each_unlit(s, [&](int column, int row) { to[row * stride + column] = 1; });
 }
 
 void BlockCounter::fill(const LightSetup& s) {

@@ -15,6 +15,7 @@ namespace gnomon {
 struct BlockMemory {
   BlockCounts counts;
   std::vector<std::int32_t> rows_of_counts;
+  std::vector<std::uint8_t> rows_of_mask;
 };
 
 class BlockCounter {
@@ -24,6 +25,7 @@ class BlockCounter {
 
   // What it returns holds until the next call.
   CountRect counts(const LightSetup& s, int light);
+  MaskRect mask(const LightSetup& s, int light);
   // `to`: of the whole picture.
   void mask(const LightSetup& s, std::uint8_t* to);
 
@@ -31,6 +33,7 @@ class BlockCounter {
 
  private:
   void fill(const LightSetup& s);
+  void take(const LightSetup& s, std::uint8_t* to, std::ptrdiff_t stride);
   // For each sample of a receiver that does not cast and turns away from the light.
   template <class F>
   void for_each_unlit(const LightSetup& s, F f) const;

@@ -134,6 +134,13 @@ CountStats count_shadows(const Casters& casters, const Receivers& receivers,
 }
 
 CountStats mask_shadows(const Casters& casters, const Receivers& receivers,
+                        std::span<const Light> lights, const MaskSink& sink, int threads) {
+  return count(
+      casters, receivers, lights, threads,
+      [&](auto& counter, const LightSetup& s, int light) { sink(counter.mask(s, light)); });
+}
+
+CountStats mask_shadows(const Casters& casters, const Receivers& receivers,
                         std::span<const Light> lights, std::span<std::uint8_t* const> masks,
                         int threads) {
   assert(masks.size() == lights.size());

@@ -37,9 +37,18 @@ struct CountRect {
   const std::int32_t* counts = nullptr;
 };
 
+// The same as a mask: 1 where the count is > 0, else 0.
+struct MaskRect {
+  int light = 0;
+  int first_column = 0, first_row = 0, columns = 0, rows = 0;
+  int stride = 0;  // from one row to the next
+  const std::uint8_t* mask = nullptr;
+};
+
 // Called for rectangles that together are the picture, once for each and each light; concurrently
 // for different rectangles, one light after the other for the same one.
 using CountSink = std::function<void(const CountRect&)>;
+using MaskSink = std::function<void(const MaskRect&)>;
 
 struct CountStats {
   ExactStats signs;   // light sides of triangles, facings, C(e)
@@ -63,7 +72,11 @@ CountStats count_shadows(const Casters& casters, const Receivers& receivers,
                          std::span<const Light> lights, std::span<std::int32_t* const> counts,
                          int threads = 0);
 
-// The same for whoever wants no counts, and faster: masks[i] receives width * height bytes,
+// The same for whoever wants no counts, and faster.
+CountStats mask_shadows(const Casters& casters, const Receivers& receivers,
+                        std::span<const Light> lights, const MaskSink& sink, int threads = 0);
+
+// Masks whole: masks[i] receives width * height bytes,
 // row-major, of light i: 1 where the count is > 0, else 0. Precondition: as many masks as lights.
 CountStats mask_shadows(const Casters& casters, const Receivers& receivers,
                         std::span<const Light> lights, std::span<std::uint8_t* const> masks,

@@ -7,7 +7,7 @@
 #include <mutex>
 
 #include <gnomon/profile/clock_ranks.h>
-#include <gnomon/raster/add_where_positive.h>
+#include <gnomon/raster/add_in_shadow.h>
 #include <gnomon/raster/first_and_last_lit.h>
 
 namespace gnomon {
@@ -26,12 +26,12 @@ void for_each_row(const Casters& casters, const Receivers& receivers, std::span<
   std::mutex progress_mutex;
   std::uint64_t done = 0;
   const std::uint64_t total = receivers.triangle.size() * lights.size();
-  const CountStats stats = count_shadows(
+  const CountStats stats = mask_shadows(
       casters, receivers, lights,
-      [&](const CountRect& part) {
+      [&](const MaskRect& part) {
         for (int row = 0; row < part.rows; ++row) {
           sink(static_cast<std::size_t>(part.light),
-               part.counts + static_cast<std::ptrdiff_t>(row) * part.stride, part.columns,
+               part.mask + static_cast<std::ptrdiff_t>(row) * part.stride, part.columns,
                index(receivers, part.first_column, part.first_row + row));
         }
         if (options.progress) {
@@ -77,8 +77,8 @@ std::vector<std::uint32_t> count_shaded(const Casters& casters, const Receivers&
                                         const ShadowOptions& options) {
   std::vector<std::uint32_t> sums(receivers.triangle.size(), 0);
   for_each_row(casters, receivers, lights, options,
-               [&](std::size_t, const std::int32_t* counts, int width, std::size_t first) {
-                 add_where_positive(counts, width, 1, sums.data() + first);
+               [&](std::size_t, const std::uint8_t* mask, int length, std::size_t first) {
+                 add_in_shadow(mask, length, 1, sums.data() + first);
                });
   return sums;
 }
@@ -115,17 +115,17 @@ Profile shadow_profile(const Casters& casters, const Receivers& receivers,
     p.first_lit.assign(n, kNeverLit);
     p.last_lit.assign(n, 0);
     for_each_row(casters, receivers, lights, options,
-                 [&](std::size_t light, const std::int32_t* counts, int width, std::size_t first) {
-                   add_where_positive(counts, width, weights[light], p.shadow_ticks.data() + first);
-                   keep_first_and_last_lit(counts, width, from.ranks[light], to.ranks[light],
+                 [&](std::size_t light, const std::uint8_t* mask, int length, std::size_t first) {
+                   add_in_shadow(mask, length, weights[light], p.shadow_ticks.data() + first);
+                   keep_first_and_last_lit(mask, length, from.ranks[light], to.ranks[light],
                                            p.first_lit.data() + first, p.last_lit.data() + first);
                  });
     p.lit_from_ms = std::move(from.times);
     p.lit_to_ms = std::move(to.times);
   } else {
     for_each_row(casters, receivers, lights, options,
-                 [&](std::size_t light, const std::int32_t* counts, int width, std::size_t first) {
-                   add_where_positive(counts, width, weights[light], p.shadow_ticks.data() + first);
+                 [&](std::size_t light, const std::uint8_t* mask, int length, std::size_t first) {
+                   add_in_shadow(mask, length, weights[light], p.shadow_ticks.data() + first);
                  });
   }
   p.valid.resize(n);
