@@ -209,6 +209,8 @@ HWY_NOINLINE void DecideOpen(const TileJob& t, Mask open, Mask covered, std::siz
   for (std::size_t lane = 0; lane < hn::Lanes(f); ++lane) {
     if (is_open[lane] == 0) continue;
     const std::size_t k = index + lane;
+    // No sample, or outside the picture.
+    if (t.nearness[k] == std::numeric_limits<float>::infinity()) continue;
     const int column = t.column + column_in_tile(k), row = t.row + row_in_tile(k);
     if ((is_covered[lane] != 0 || t.exact->covers(t.side, column, row)) &&
         t.exact->in_front(t.side, column, row)) {
