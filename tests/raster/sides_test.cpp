@@ -158,8 +158,9 @@ TEST(Sides, SeenFromWithinTheirPlanesFromVerticesAndFromInsideABoxCountAsTheSpec
   const Scene scene = box_on_ground();
   for (const Vec3& eye : {Vec3(2, -12, 5), Vec3(5, -9, 5), Vec3(2, -2, 5), Vec3(2, 1, 5),
                           Vec3(0, 1, 5), Vec3(0, 0, 2), Vec3(0, -12, 0)}) {
-    expect_the_specification(scene, camera_on_grid(eye, 14, 12),
-                             std::vector<Light>{{-1, -1, 1, 0}, {0, -1, 0.5, 0}, {5, -2, 8, 1}});
+    expect_the_specification(
+        scene, camera_on_grid(eye, 14, 12),
+        std::vector<Light>{{-1, -1, 1, 0}, {0, -1, 0.5, 0}, {5, -2, 8, 1}, point(eye)});
   }
 }
 
@@ -172,6 +173,42 @@ TEST(Sides, UnderLampsAtTheEyeOnVerticesAndEdgesBehindTheCameraAndInThePictureCo
   expect_the_specification(box_on_ground(), view, lamps);
   expect_the_specification(with_parts(box_on_ground(), 2, 6), view, lamps);
   expect_the_specification(box_on_ground(), plan_view({-8, -8, 8, 8}, 1, 0), lamps);
+}
+
+TEST(Sides, UnderALampAtTheEyeAreLeftOut) {
+  const Vec3 eye(7, -9, 6);
+  const View view = perspective_view(eye, {0, 0, 2}, {0, 0, 1}, 1, 40, 30);
+  const Scene scene = box_on_ground();
+  const Light light = point(eye);
+  const Receivers r = visible_surfaces(scene, view);
+  std::vector<std::int32_t> counts(r.triangle.size());
+  std::int32_t* const to = counts.data();
+  const CountStats stats =
+      count_shadows(prepare_casters(scene), r, std::span(&light, 1), std::span(&to, 1), 1);
+  EXPECT_EQ(stats.spans.exact, 0u);
+  EXPECT_EQ(stats.close, 0u);
+}
+
+TEST(Sides, UnderALampOverAVertexAskForTilesNotForSamples) {
+  // Seen from above, the edges from the vertex towards the lamp are points: no float knows which
+  // side of them a sample lies on.
+  TriMesh m;
+  test::add_ground(m, 40);
+  test::add_box(m, {-20, -20, 0}, {0.25, 0.25, 5});
+  m.positions.push_back({0.25, 0.25, 12});
+  m.positions.push_back({9, 3, 3});
+  m.positions.push_back({-4, 9, 4});
+  const auto k = static_cast<std::uint32_t>(m.positions.size());
+  m.triangles.push_back({k - 3, k - 2, k - 1});
+  const Scene scene = scene_of(std::move(m));
+  const Light light(0.25, 0.25, 17, 1);
+  const Receivers r = visible_surfaces(scene, plan_view({-32, -32, 32, 32}, 0.25, 0));
+  std::vector<std::int32_t> counts(r.triangle.size());
+  std::int32_t* const to = counts.data();
+  const CountStats stats =
+      count_shadows(prepare_casters(scene), r, std::span(&light, 1), std::span(&to, 1), 1);
+  EXPECT_GT(stats.spans.exact, 0u);
+  EXPECT_LT(stats.spans.exact, counts.size() / 4);
 }
 
 TEST(Sides, UnderSunsAlongTheAxisAndThroughVerticesCountAsTheSpecification) {
@@ -392,6 +429,7 @@ TEST(Sides, OfUnknownNearnessAskNothingOfPixelsWithoutSamples) {
       ++at[static_cast<std::size_t>(row * kTile + column)];
       return true;
     }
+    int covers_tile(const Side&, int, int) override { return 0; }
     bool in_front(const Side&, int, int) override { return true; }
     int at[kTile * kTile] = {};
   };

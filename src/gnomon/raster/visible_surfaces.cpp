@@ -239,7 +239,7 @@ Receivers visible_surfaces(const Scene& scene, const View& view, int threads, Ex
   out.nearness_floor = std::max(nearest * kFloorShare, kSmallestFloat);
   parallel_for(bands, threads,
                [&](int b) { drawn[static_cast<std::size_t>(b)]->store(out, out.nearness_floor); });
-  if (is_parallel(view)) {
+  if (is_parallel(view) && !out.casters_in_front) {
     out.cells = least_cells(scene, out, threads);
   } else {
     out.tiles = nearness_tiles(out, threads);

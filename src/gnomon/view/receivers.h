@@ -62,8 +62,9 @@ struct Receivers {
   bool casters_in_front =
       false;  // some caster does not receive: rays may cross casters before they reach their sample
   bool receivers_not_casting = false;
-  // Of nearness, made with it for the views that need them most: cells for parallel ones, tiles for
-  // cameras. Without levels, or of width 0: not made yet. Whoever changes nearness empties both.
+  // Of nearness, made with it for the views that need them most: tiles for cameras and for casters
+  // in front, cells for other parallel views. Without levels, or of width 0: not made yet. Whoever
+  // changes nearness empties both.
   LeastCells cells;
   NearnessTiles tiles;
 };
