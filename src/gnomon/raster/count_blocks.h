@@ -1,4 +1,5 @@
-// Blocks of 128 x 128 samples and the sides over them: the counts of one light after the other.
+// Blocks of 128 x 128 samples (kBlock) and the sides over them: the counts of one light after the
+// other.
 #pragma once
 
 #include <cstdint>

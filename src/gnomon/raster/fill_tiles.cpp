@@ -43,6 +43,8 @@ struct Local {
   HWY_ALIGN float up[kSideFunctions], down[kSideFunctions];
 };
 
+// Which functions are also wrong by Side::relative of their value; and what FillTile(), which does
+// not ask for the bounds of nearness, adds for rounding.
 HWY_ALIGN constexpr float kOfNearness[kSideFunctions] = {0, 0, 0, 1, 1, 1, 0, 0};
 HWY_ALIGN constexpr float kInFloat[kSideFunctions] = {
     kEdgeInFloat, kEdgeInFloat, kEdgeInFloat, kNearnessInFloat, 0, 0, 0, 0};

@@ -66,7 +66,6 @@ void set_up(Polygon& p, const PolygonEquations<double>& q, const EquationErrors&
   p.facing = static_cast<std::int8_t>(certain ? (q.f > 0 ? space.orientation : -space.orientation)
                                               : facing(view, corners, light, stats));
   const double inside = p.facing * space.orientation;
-  p.inverse_ga = 0;
   p.error_absolute = p.error_relative = 0;
   for (int k = 0; k < 3; ++k)
     std::tie(p.edges[k], p.kinds[k]) =
@@ -82,8 +81,6 @@ void set_up(Polygon& p, const PolygonEquations<double>& q, const EquationErrors&
       std::fabs(p.g.a) * space.width + std::fabs(p.g.b) * space.height + std::fabs(p.g.c);
   p.error_absolute = rounded_up(errors.n / least * kInflate + kNearnessRoundoff * reach);
   p.error_relative = rounded_up(errors.f / least * kInflate);
-  // A cut by nearness is an optimisation: only where it is sharper than the picture is wide.
-  if (std::fabs(p.g.a) * space.width > 4 * p.error_absolute) p.inverse_ga = 1 / p.g.a;
 }
 
 void refine_nearness(Polygon& p, const ScreenPoint<double> (&corners)[3],
