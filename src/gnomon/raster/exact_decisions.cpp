@@ -1,5 +1,7 @@
 #include <gnomon/raster/exact_decisions.h>
 
+#include <algorithm>
+
 namespace gnomon {
 
 const Polygon& ExactDecisions::polygon(const Strip& s) {
@@ -35,6 +37,34 @@ bool ExactDecisions::in_front(const Polygon& p, int column, int row) {
 bool ExactDecisions::covers(const Side& s, int column, int row) {
   return gnomon::covers(receivers_.view, column, row, corners(s.caster, s.id), s.facing,
                         light_.light, spans);
+}
+
+int ExactDecisions::covers_tile(const Side& s, int column, int row) {
+  const int patch[2] = {column / kPatch, row / kPatch};
+  if (last_side_ != &s || patch[0] != last_patch_[0] || patch[1] != last_patch_[1]) {
+    last_side_ = &s;
+    std::copy_n(patch, 2, last_patch_);
+    last_covers_ = covers_all(s, patch[0] * kPatch, patch[1] * kPatch, kPatch, kPatch);
+  }
+  return last_covers_ != 0 ? last_covers_ : covers_all(s, column, row, kTile, kTile);
+}
+
+// Which side of an edge pixels lie on is the sign of a linear function, also where infinitesimals
+// decide: what is true of a rectangle's corners is true in it.
+int ExactDecisions::covers_all(const Side& s, int column, int row, int columns, int rows) {
+  const Corners c = corners(s.caster, s.id);
+  bool all = true;
+  for (std::size_t k = 0; k < 3; ++k) {
+    int inside = 0;
+    for (int corner = 0; corner < 4; ++corner) {
+      const int x = column + (corner % 2) * (columns - 1), y = row + (corner / 2) * (rows - 1);
+      if (edge_side(receivers_.view, x, y, c[k], c[(k + 1) % 3], light_.light, spans) == s.facing)
+        ++inside;
+    }
+    if (inside == 0) return -1;
+    all = all && inside == 4;
+  }
+  return all ? 1 : 0;
 }
 
 bool ExactDecisions::in_front(const Side& s, int column, int row) {

@@ -25,6 +25,7 @@ class ExactDecisions final : public ExactStripDecisions,
   Span span(const Polygon& p, int row) override;
   bool in_front(const Polygon& p, int column, int row) override;
   bool covers(const Side& s, int column, int row) override;
+  int covers_tile(const Side& s, int column, int row) override;
   bool in_front(const Side& s, int column, int row) override;
 
   ExactStats spans, depths;
@@ -36,6 +37,9 @@ class ExactDecisions final : public ExactStripDecisions,
   // `face`: whose corners these are.
   bool in_front(const void* face, const Corners& c, int facing, int column, int row);
 
+  // covers_tile(), of any rectangle.
+  int covers_all(const Side& s, int column, int row, int columns, int rows);
+
   // A receiver in the face's plane: the answer is one for all pixels (docs/exactness.md).
   struct InPlane {
     std::uint32_t triangle;
@@ -46,6 +50,8 @@ class ExactDecisions final : public ExactStripDecisions,
   const ViewSetup& view_;
   const Receivers& receivers_;
   const LightSetup& light_;
+  const Side* last_side_ = nullptr;
+  int last_patch_[2] = {0, 0}, last_covers_ = 0;  // covers_all() of the patch
   const Strip* strip_ = nullptr;
   Polygon of_strip_;  // what it stands for
   std::uint32_t last_triangle_ = kNoTriangle;

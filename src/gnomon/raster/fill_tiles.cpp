@@ -43,6 +43,8 @@ struct Local {
   HWY_ALIGN float up[kSideFunctions], down[kSideFunctions];
 };
 
+// Which functions are also wrong by Side::relative of their value; and what FillTile(), which does
+// not ask for the bounds of nearness, adds for rounding.
 HWY_ALIGN constexpr float kOfNearness[kSideFunctions] = {0, 0, 0, 1, 1, 1, 0, 0};
 HWY_ALIGN constexpr float kInFloat[kSideFunctions] = {
     kEdgeInFloat, kEdgeInFloat, kEdgeInFloat, kNearnessInFloat, 0, 0, 0, 0};
@@ -196,12 +198,17 @@ struct TileJob {
   const float* nearness;
   std::int32_t* counts;
   ExactSideDecisions* exact;
+  int asked = 0;  // samples, whether the side covers them
+  int whole = 0;  // ExactSideDecisions::covers_tile(), when it has been asked
 };
+// Of a side with an edge that no float knows (a lamp over its vertex) all samples are open: then
+// the tile is asked for as a whole.
+constexpr int kAskedOneByOne = 4;
 
 // The samples of a vector that float cannot decide: `open`; `covered`: those that the side surely
 // covers. `index`: of the first, in the tile.
 template <class Mask>
-HWY_NOINLINE void DecideOpen(const TileJob& t, Mask open, Mask covered, std::size_t index) {
+HWY_NOINLINE void DecideOpen(TileJob& t, Mask open, Mask covered, std::size_t index) {
   const F f;
   HWY_ALIGN float is_open[16], is_covered[16];
   hn::Store(hn::IfThenElseZero(open, Set(1)), f, is_open);
@@ -209,16 +216,19 @@ HWY_NOINLINE void DecideOpen(const TileJob& t, Mask open, Mask covered, std::siz
   for (std::size_t lane = 0; lane < hn::Lanes(f); ++lane) {
     if (is_open[lane] == 0) continue;
     const std::size_t k = index + lane;
+    // No sample, or outside the picture.
+    if (t.nearness[k] == std::numeric_limits<float>::infinity()) continue;
     const int column = t.column + column_in_tile(k), row = t.row + row_in_tile(k);
-    if ((is_covered[lane] != 0 || t.exact->covers(t.side, column, row)) &&
-        t.exact->in_front(t.side, column, row)) {
-      t.counts[k] += t.side.add;
+    if (is_covered[lane] == 0) {
+      if (t.asked++ == kAskedOneByOne) t.whole = t.exact->covers_tile(t.side, t.column, t.row);
+      if (t.whole != 0 ? t.whole < 0 : !t.exact->covers(t.side, column, row)) continue;
     }
+    if (t.exact->in_front(t.side, column, row)) t.counts[k] += t.side.add;
   }
 }
 
 // Four by four samples at a time.
-HWY_INLINE void FillTile(const TileJob& t) {
+HWY_INLINE void FillTile(TileJob t) {
   const D d;
   const DF df;
   const F f;

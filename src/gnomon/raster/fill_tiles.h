@@ -39,6 +39,8 @@ class ExactSideDecisions {
  public:
   virtual ~ExactSideDecisions() = default;
   virtual bool covers(const Side& s, int column, int row) = 0;
+  // 1: it covers all pixels of a tile, -1: none, 0: some, or that is not known.
+  virtual int covers_tile(const Side& s, int column, int row) = 0;
   // True if the side is in front of the sample; false where there is no sample. Precondition: it
   // covers it.
   virtual bool in_front(const Side& s, int column, int row) = 0;

@@ -14,8 +14,8 @@ namespace {
 constexpr int kSide = 1 << kCellShift;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-// Receivers::nearness is wrong by at most 2^-23 of itself or by nearness_floor; twice that share is
-// taken off.
+// Receivers::nearness is wrong by at most 2^-23 of itself and by nearness_floor; twice that share
+// is taken off.
 constexpr double kNearnessRounding = 0x1p-22;
 
 float rounded_down(double x) {

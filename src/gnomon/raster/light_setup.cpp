@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
 
 #include <gnomon/core/parallel.h>
 #include <gnomon/raster/least_cells.h>
@@ -162,6 +163,13 @@ void find_sides(LightSetup& s, const Casters& casters, const Receivers& r, const
   }
 }
 
+bool at_eye(const View& v, const Light& l) { return !is_parallel(v) && l.w == 1 && v.eye == l; }
+
+bool in_box(const Vec3& a, const Vec3& b, const Vec3& p) {
+  return glm::all(glm::lessThanEqual(glm::min(a, b), p)) &&
+         glm::all(glm::lessThanEqual(p, glm::max(a, b)));
+}
+
 // The second, in bands: the strips of a run, and polygons for what is none.
 void set_up_run_for_bands(LightSetup& s, std::size_t index, const Casters& casters,
                           const Receivers& r, const ViewSetup& v) {
@@ -212,6 +220,9 @@ void set_up_run_for_blocks(LightSetup& s, std::size_t index, const Casters& cast
     setup.facing = [&](std::uint32_t id) {
       const SilhouetteEdge& e = s.silhouette[id];
       if (seen_end_on(r.view, positions[e.a], positions[e.b])) return 0;
+      // Seen from the lamp itself every side is its edge and nothing else (docs/exactness.md).
+      if (at_eye(r.view, s.light) && !in_box(positions[e.a], positions[e.b], Vec3(s.light)))
+        return 0;
       return facing(r.view, corners_of_side(s, casters, id), s.light, run.stats);
     };
     run.made =

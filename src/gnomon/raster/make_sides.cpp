@@ -3,6 +3,7 @@
 #include <limits>
 
 #include <gnomon/raster/side.h>
+#include <gnomon/view/receivers.h>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "gnomon/raster/make_sides.cpp"
@@ -50,10 +51,14 @@ HWY_INLINE V Highest(const Line& l, V w, V h) {
   const V zero = hn::Zero(D());
   return hn::Add(l.c, hn::Add(hn::Mul(hn::Max(l.a, zero), w), hn::Mul(hn::Max(l.b, zero), h)));
 }
+// More than any bound that can decide anything: edge functions reach a few times the picture's
+// sides, bounds of nearness 2^22 times kLargestNearness. Infinite bounds would turn into NaN.
+constexpr double kLargestSlack = 1e37;
 // As floats, not below x >= 0: rounding to nearest takes away at most 2^-24 of it.
 HWY_INLINE void StoreNotBelow(V x, float* out) {
   const hn::Rebind<float, D> f;
-  hn::Store(hn::DemoteTo(f, hn::Add(hn::Mul(x, Set(1 + 0x1p-20)), Set(1e-30))), f, out);
+  const V more = hn::Add(hn::Mul(x, Set(1 + 0x1p-20)), Set(1e-30));
+  hn::Store(hn::DemoteTo(f, hn::Min(more, Set(kLargestSlack))), f, out);
 }
 
 // source.take(i, corners): pointers to its three points; source.id(i); source.weight(i).
@@ -119,16 +124,19 @@ std::size_t Make(const SideSetup& s, const Source& source, std::size_t n, bool c
       kept = hn::And(kept, hn::Not(hn::Lt(Highest(l, w, h), hn::Neg(bounds[k]))));
       edges[k] = l;
     }
-    const M known = hn::Gt(hn::Abs(f), Set(4 * s.errors.f));  // else its nearness is a guess
-    const V inverse = hn::Div(one, hn::IfThenElse(known, f, one));
+    const M resolved = hn::Gt(hn::Abs(f), Set(4 * s.errors.f));  // else its nearness is a guess
+    const V inverse = hn::Div(one, hn::IfThenElse(resolved, f, one));
+    const Line quotient{hn::Mul(na, inverse), hn::Mul(nb, inverse), hn::Mul(nc, inverse)};
+    const V of_f =
+        hn::Div(one, hn::IfThenElse(resolved, hn::Sub(hn::Abs(f), Set(s.errors.f)), one));
+    const V absolute = hn::Add(hn::Mul(Set(s.errors.n * kInflate), of_f),
+                               hn::Mul(Set(kRoundoff), Reach(quotient, w, h)));
+    const M known =
+        hn::And(resolved, hn::Lt(hn::Add(Reach(quotient, w, h), absolute), Set(kLargestNearness)));
+    const V share = hn::IfThenElseZero(known, hn::Mul(Set(s.errors.f * kInflate), of_f));
     const V unknown = Set(std::numeric_limits<double>::quiet_NaN());
-    const Line g{hn::IfThenElseZero(known, hn::Mul(na, inverse)),
-                 hn::IfThenElseZero(known, hn::Mul(nb, inverse)),
-                 hn::IfThenElse(known, hn::Mul(nc, inverse), unknown)};
-    const V of_f = hn::Div(one, hn::IfThenElse(known, hn::Sub(hn::Abs(f), Set(s.errors.f)), one));
-    const V absolute =
-        hn::Add(hn::Mul(Set(s.errors.n * kInflate), of_f), hn::Mul(Set(kRoundoff), Reach(g, w, h)));
-    const V share = hn::Mul(Set(s.errors.f * kInflate), of_f);
+    const Line g{hn::IfThenElseZero(known, quotient.a), hn::IfThenElseZero(known, quotient.b),
+                 hn::IfThenElse(known, quotient.c, unknown)};
     // nearness + t edge >= nearness inside for t >= 0; and - t edge <= nearness.
     Line upper = g, lower = g;
     V upper_bound = absolute, lower_bound = absolute;
@@ -148,8 +156,9 @@ std::size_t Make(const SideSetup& s, const Source& source, std::size_t n, bool c
         least = hn::IfThenElse(better, steepness, least);
         best = {hn::IfThenElse(better, tilted.a, best.a), hn::IfThenElse(better, tilted.b, best.b),
                 hn::IfThenElse(better, tilted.c, best.c)};
+        // The share that nearness may be wrong by is also one of what lies beyond the edge.
         const V more = hn::Add(
-            hn::Mul(t, bounds[k]),
+            hn::Mul(hn::Mul(t, bounds[k]), hn::Add(one, share)),
             hn::Mul(Set(kRoundoff), hn::Add(hn::Mul(t, Reach(l, w, h)), Reach(tilted, w, h))));
         bound = hn::IfThenElse(better, hn::Add(absolute, more), bound);
       };

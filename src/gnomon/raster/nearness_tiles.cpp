@@ -10,8 +10,8 @@ namespace gnomon {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-// Receivers::nearness is wrong by at most 2^-23 of itself or by nearness_floor; twice that share is
-// taken for it, which also pays for rounding here.
+// Receivers::nearness is wrong by at most 2^-23 of itself and by nearness_floor; twice that share
+// is taken for it, which also pays for rounding here.
 constexpr double kNearnessRounding = 0x1p-22;
 
 float rounded_down(double x) {

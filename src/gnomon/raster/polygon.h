@@ -79,7 +79,7 @@ struct Polygon {
   float error_relative = 0;
   std::int32_t add = 0;  // what a sample behind it adds to its count
   std::int32_t first_row = 0, end_row = 0;
-  std::uint32_t id = 0;  // whose it is: index into sides or triangles (the caller's)
+  std::uint32_t id = 0;  // whose it is: index into the silhouette or the triangles
   bool caster = false;   // a triangle's, not a side's
 };
 
@@ -123,8 +123,8 @@ struct ExactPolygon {
 // The exact pixels of a row that the polygon covers.
 Span exact_span(const Polygon& p, const ExactPolygon& exact, int row, ExactStats& stats);
 
-// Least number of pixels to the left of crossing x: pixel i is to the right of it if i + 1/2 > x,
-// i.e. i >= floor(x + 1/2) (unless tied, which slack sees).
+// Pixel i is to the right of a crossing x if i + 1/2 > x, i.e. i >= floor(x + 1/2) (unless tied,
+// which slack sees).
 inline constexpr double kPixelCentre = 0.5;
 
 }  // namespace gnomon

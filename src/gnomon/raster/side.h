@@ -16,12 +16,12 @@
 
 namespace gnomon {
 
-// What a side's linear functions a x + b y + c say, by index. kEdge and the two after it: the edge
-// functions, positive inside, in about a pixel's unit (|a| + |b| = 1 unless the edge is far from
-// all pixels). kNearness: of the side's plane; NaN where nothing is known of it. kUpper and kLower:
-// bounds of nearness inside the side, which vary less than it does: nearness and a multiple of the
-// edge function across which it varies most, so that a side seen nearly edge-on is known well in
-// large squares too.
+// What a side's linear functions a x + b y + c say, by index; the last two are 0 and fill vectors.
+// kEdge and the two after it: the edge functions, positive inside, in about a pixel's unit (|a| +
+// |b| = 1 unless the edge is far from all pixels). kNearness: of the side's plane; NaN where
+// nothing is known of it. kUpper and kLower: bounds of nearness inside the side, which vary less
+// than it does: nearness and a multiple of the edge function across which it varies most, so that a
+// side seen nearly edge-on is known well in large squares too.
 enum SideFunction { kEdge = 0, kNearness = 3, kUpper = 4, kLower = 5, kSideFunctions = 8 };
 
 struct alignas(64) Side {
@@ -44,7 +44,7 @@ struct SideSetup {
   EquationErrors errors;                        // of the sides' equations
   double least_nearness = 0;  // of all samples: what lies behind it everywhere is left out
   double nearness_floor = 0;  // of the samples
-  // The exact facing of what floating point cannot tell, by id; 0: covers no pixel at all.
+  // The exact facing of what floating point cannot tell, by id; 0: in front of no sample, left out.
   std::function<int(std::uint32_t)> facing;
 };
 

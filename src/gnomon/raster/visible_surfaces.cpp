@@ -20,6 +20,7 @@ constexpr int kBandRows = 16;
 // micrometre in a plan of a city. What is worse is decided exactly.
 constexpr double kFloatShare = 0x1p-26;
 constexpr double kFloorShare = 0x1p-28;
+constexpr double kSmallestFloat = std::numeric_limits<float>::min();  // below it rounding is more
 
 struct Prepared {
   std::vector<Polygon> polygons;  // nearest first, so that hidden surfaces are refused early
@@ -138,9 +139,10 @@ class Band {
       }
       const double g = nearness_[k], error = static_cast<double>(error_[k]);
       out.triangle[base + k] = prepared_.polygons[polygon_[k]].id;
-      out.nearness[base + k] = error <= std::max(std::fabs(g) * kFloatShare, floor)
-                                   ? static_cast<float>(g)
-                                   : std::numeric_limits<float>::quiet_NaN();
+      const bool known =
+          error <= std::max(std::fabs(g) * kFloatShare, floor) && std::fabs(g) <= kLargestNearness;
+      out.nearness[base + k] =
+          known ? static_cast<float>(g) : std::numeric_limits<float>::quiet_NaN();
     }
   }
 
@@ -234,7 +236,7 @@ Receivers visible_surfaces(const Scene& scene, const View& view, int threads, Ex
     local += band->spans;
     local += band->depths;
   }
-  out.nearness_floor = nearest * kFloorShare;
+  out.nearness_floor = std::max(nearest * kFloorShare, kSmallestFloat);
   parallel_for(bands, threads,
                [&](int b) { drawn[static_cast<std::size_t>(b)]->store(out, out.nearness_floor); });
   if (is_parallel(view)) {

@@ -46,21 +46,24 @@ struct NearnessTiles {
   std::vector<std::uint8_t> full;  // per tile: 1 if all its pixels have samples
 };
 
+// In magnitude; beyond it nearness is not known as a float, which must have room to reckon with it.
+inline constexpr double kLargestNearness = 1e28;
+
 struct Receivers {
   View view;
   // Row-major, row 0 at the top, width * height each.
   std::vector<std::uint32_t> triangle;  // index into the scene's triangles; kNoTriangle: the ray
                                         // meets no receiver (nodata)
-  // Nearness (see view.h), rounded to float with relative error at most 2^-23 or absolute error
-  // nearness_floor, whichever is larger. +infinity where there is no sample. NaN: too uncertain for
-  // a float, always decided exactly.
+  // Nearness (see view.h), rounded to float with relative error at most 2^-23 plus absolute error
+  // nearness_floor. +infinity where there is no sample. NaN: too uncertain for a float, or above
+  // kLargestNearness; always decided exactly.
   std::vector<float> nearness;
   double nearness_floor = 0;
   bool casters_in_front =
       false;  // some caster does not receive: rays may cross casters before they reach their sample
   bool receivers_not_casting = false;
-  // Of nearness, made with it for the views that need them most: cells for parallel ones, tiles for
-  // cameras. Without levels, or of width 0: not made yet. Whoever changes nearness empties both.
+  // Of nearness, made with it: cells for parallel views, tiles for cameras. Without levels, or of
+  // width 0: not made yet. Whoever changes nearness empties both.
   LeastCells cells;
   NearnessTiles tiles;
 };
