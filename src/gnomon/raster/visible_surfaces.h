@@ -9,7 +9,8 @@ namespace gnomon {
 
 // The receivers of the scene as seen in the view. Exact: coverage and depth order are decided by
 // view/predicates.h wherever floating point cannot; coplanar triangles over one pixel: the one with
-// the lowest index. Preconditions: welded mesh; view dimensions positive.
+// the lowest index. Preconditions: welded mesh; surface_of and surfaces filled (a scene made by
+// hand has none by itself); view dimensions positive.
 Receivers visible_surfaces(const Scene& scene, const View& view, int threads = 0,
                            ExactStats* stats = nullptr);
 
