@@ -51,11 +51,10 @@ using CountSink = std::function<void(const CountRect&)>;
 using MaskSink = std::function<void(const MaskRect&)>;
 
 struct CountStats {
-  ExactStats signs;   // light sides of triangles, facings, C(e)
-  ExactStats spans;   // ends of spans
-  ExactStats depths;  // sample against polygon
-  std::uint64_t close =
-      0;  // samples within the float filter's bound of a polygon, decided in double or exactly
+  ExactStats signs;             // light sides of triangles, facings, C(e)
+  ExactStats spans;             // ends of spans; samples and tiles against the edges of sides
+  ExactStats depths;            // samples against strips, polygons and sides
+  std::uint64_t close = 0;      // samples within a float filter's bound of one, decided exactly
   std::uint64_t sides = 0;      // silhouette edges over all lights
   std::uint64_t triangles = 0;  // casting triangles over all lights
 };
