@@ -44,12 +44,14 @@ template <class Finish>
 CountStats count(const Casters& casters, const Receivers& receivers, std::span<const Light> lights,
                  int threads, const Finish& finish) {
   CountStats stats;
+  if (receivers.triangle.empty()) return stats;
   std::mutex stats_mutex;
   const ViewSetup view = set_up_view(casters, receivers, threads);
   // A third of the edges of closed meshes are on the silhouette of a sun at most; the rest is
   // refused when it is set up.
-  const std::size_t bytes =
-      std::max<std::size_t>(1, casters.edges.vertices.size() / 3 * sizeof(Side));
+  const std::size_t bytes = std::max<std::size_t>(
+      1, casters.edges.vertices.size() / 3 *
+             (in_bands(receivers) ? sizeof(Strip) + sizeof(Polygon) / 4 : sizeof(Side)));
   const std::size_t batch = std::clamp<std::size_t>(kBatchBytes / bytes, 1, kBatchLights);
 
   EdgeTree tree;
