@@ -34,7 +34,8 @@ struct Point {
   double ms_per_sun, set_up_ms;  // set-up: of the casters, once for all suns, and of the view
 };
 
-// All suns over one view, each mask summed over all suns: what a profile does. Median of runs.
+// All suns over one view, samples in shadow summed over all suns, from counts (a profile sums
+// masks). Median of runs.
 Point measure(const std::string& series, double x, const Scene& scene, const View& view, int suns,
               int threads, int runs) {
   const std::vector<Light> lights = suns_of(suns, scene.frame.true_north);

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
 #ifdef __FAST_MATH__
 #error "Gnomon's predicates need IEEE arithmetic: compile this file without -ffast-math or -Ofast"
@@ -20,6 +21,13 @@ inline constexpr double kUnitRoundoff = 0x1p-53;  // of double, round to nearest
 inline constexpr double kInflate = 1.0 + 0x1p-48;
 // Below this a product of factors may have lost bits to underflow; such values count as undecided.
 inline constexpr double kUnderflowGuard = 1e-280;
+
+// As float, not below and not above x.
+inline float rounded_up(double x) {
+  const auto f = static_cast<float>(x);
+  return static_cast<double>(f) < x ? std::nextafter(f, std::numeric_limits<float>::infinity()) : f;
+}
+inline float rounded_down(double x) { return -rounded_up(-x); }
 
 struct Approx {
   double value = 0;

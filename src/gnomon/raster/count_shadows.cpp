@@ -47,6 +47,7 @@ CountStats count(const Casters& casters, const Receivers& receivers, std::span<c
   if (receivers.triangle.empty()) return stats;
   std::mutex stats_mutex;
   const ViewSetup view = set_up_view(casters, receivers, threads);
+  stats.signs += view.stats;
   // A third of the edges of closed meshes are on the silhouette of a sun at most; the rest is
   // refused when it is set up.
   const std::size_t bytes = std::max<std::size_t>(

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include <gnomon/core/approx.h>
 #include <gnomon/core/parallel.h>
 #include <gnomon/view/predicates.h>
 
@@ -13,12 +14,6 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Boxes that one thread takes at a time: some 15 microseconds' worth, where nearly all are apart.
 constexpr std::size_t kChunk = 8192;
-
-float not_above(double x) {
-  const float f = static_cast<float>(x);
-  return static_cast<double>(f) > x ? std::nextafter(f, -std::numeric_limits<float>::infinity())
-                                    : f;
-}
 
 // d_i (y_j - p_j) - d_j (x_i - p_i): 0 on the plane through the line p + t d along the third axis.
 template <class T>
@@ -128,8 +123,8 @@ RunBoxes run_boxes(const TriMesh& mesh, const std::vector<std::uint8_t>& selecte
     RunBox& box = out.boxes.emplace_back();
     for (int k = 0; k < 3; ++k) {
       const auto i = static_cast<std::size_t>(k);
-      box.lo[i] = not_above(lo[k]);
-      box.hi[i] = -not_above(-hi[k]);
+      box.lo[i] = rounded_down(lo[k]);
+      box.hi[i] = rounded_up(hi[k]);
       if (lo[k] > hi[k]) continue;
       out.largest[k] = std::max({out.largest[k], std::fabs(static_cast<double>(box.lo[i])),
                                  std::fabs(static_cast<double>(box.hi[i]))});

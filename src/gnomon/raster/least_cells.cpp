@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include <gnomon/core/approx.h>
 #include <gnomon/core/parallel.h>
 #include <gnomon/raster/screen_space.h>
 
@@ -13,15 +14,6 @@ namespace {
 
 constexpr int kSide = 1 << kCellShift;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
-// Receivers::nearness is wrong by at most 2^-23 of itself and by nearness_floor; twice that share
-// is taken off.
-constexpr double kNearnessRounding = 0x1p-22;
-
-float rounded_down(double x) {
-  const auto f = static_cast<float>(x);
-  return static_cast<double>(f) > x ? std::nextafter(f, -kInfinity) : f;
-}
 
 // Of a vertex in a parallel view.
 double error_of_nearness(const Scene& scene, const ScreenSpace& space) {

@@ -92,28 +92,28 @@ void add_casters(ViewSetup& v, const Casters& casters, const Receivers& r, int t
   const std::vector<Vec3>& at = scene.mesh.positions;
   const EquationErrors errors =
       equation_errors(v.screen.bound, v.screen.bound, v.screen.bound, r.view.width, r.view.height);
-  std::vector<std::vector<Polygon>> runs((scene.mesh.triangles.size() + kRun - 1) / kRun);
+  std::vector<SetupRun> runs((scene.mesh.triangles.size() + kRun - 1) / kRun);
   parallel_for(static_cast<int>(runs.size()), threads, [&](int k) {
-    const auto run = static_cast<std::size_t>(k);
-    std::vector<std::uint32_t> ids;
-    find_casters(ids, run * kRun, casters);
-    ExactStats stats;
-    for (const std::uint32_t id : ids) {
+    SetupRun& run = runs[static_cast<std::size_t>(k)];
+    find_casters(run.ids, static_cast<std::size_t>(k) * kRun, casters);
+    for (const std::uint32_t id : run.ids) {
       const Triangle& t = scene.mesh.triangles[id];
       const PolygonEquations<double> q =
           polygon_equations(v.screen.points[t[0]], v.screen.points[t[1]], v.screen.points[t[2]]);
       if (std::fabs(q.f) <= errors.f && seen_edge_on(r.view, at[t[0]], at[t[1]], at[t[2]]))
         continue;  // a wall seen from above
       Polygon p;
-      set_up(p, q, errors, v.space, r.view, corners_of(scene, id), Light(0.0), stats);
+      set_up(p, q, errors, v.space, r.view, corners_of(scene, id), Light(0.0), run.stats);
       p.add = p.facing;  // times the light's side: +1 from the lit to the unlit side
       p.id = id;
       p.caster = true;
-      add_polygon(runs[run], v, r, p, q, errors, {0, r.view.height});
+      add_polygon(run.polygons, v, r, p, q, errors, {0, r.view.height});
     }
   });
-  for (const std::vector<Polygon>& run : runs)
-    v.casters.insert(v.casters.end(), run.begin(), run.end());
+  for (const SetupRun& run : runs) {
+    v.casters.insert(v.casters.end(), run.polygons.begin(), run.polygons.end());
+    v.stats += run.stats;
+  }
   bin(v.caster_bins, v.bands, [&](const auto& f) {
     for (std::size_t i = 0; i < v.casters.size(); ++i)
       f(i, v.casters[i].first_row, v.casters[i].end_row);

@@ -18,8 +18,8 @@
 
 namespace gnomon {
 
-inline constexpr int kBandRows =
-    32;  // counts and nearness of a band stay in the second-level cache
+// Counts and nearness of a band stay in the second-level cache.
+inline constexpr int kBandRows = 32;
 
 // A tree of edges is built for as many lights: one light costs brute force 2 to 3 ns a triangle and
 // the tree 1, and building it, by one thread, 500 to 2000 (docs/silhouettes.md).
@@ -42,6 +42,7 @@ struct ViewSetup {
   int bands = 0;
   std::vector<Polygon> casters;  // of a parallel view: that receivers may lie behind; add: facing
   Bins caster_bins;
+  ExactStats stats;  // of the casters' facings
 };
 
 // Silhouette edges are set up in runs of this many, in parallel. The strips or sides of a run begin

@@ -4,20 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include <gnomon/core/approx.h>
 #include <gnomon/core/parallel.h>
 
 namespace gnomon {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-// Receivers::nearness is wrong by at most 2^-23 of itself and by nearness_floor; twice that share
-// is taken for it, which also pays for rounding here.
-constexpr double kNearnessRounding = 0x1p-22;
-
-float rounded_down(double x) {
-  const auto f = static_cast<float>(x);
-  return static_cast<double>(f) > x ? std::nextafter(f, -kInfinity) : f;
-}
 
 void resize(NearnessTiles::Bounds& b, std::size_t n) {
   b.least.assign(n, kInfinity);
@@ -97,7 +90,7 @@ NearnessTiles nearness_tiles(const Receivers& r, int threads) {
       high = std::numeric_limits<double>::infinity();
     }
     out.tiles.least[tile] = rounded_down(low);
-    out.tiles.greatest[tile] = -rounded_down(-high);
+    out.tiles.greatest[tile] = rounded_up(high);
   };
   parallel_for(static_cast<int>(blocks), threads, [&](int b) {
     const int x0 = b % out.blocks_wide * kBlock, y0 = b / out.blocks_wide * kBlock;

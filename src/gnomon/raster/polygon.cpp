@@ -42,11 +42,6 @@ std::pair<RowEdge, EdgeKind> row_edge(const Linear<double>& line, const Linear<d
 
 }  // namespace
 
-float rounded_up(double x) {
-  const auto f = static_cast<float>(x);
-  return static_cast<double>(f) < x ? std::nextafter(f, std::numeric_limits<float>::infinity()) : f;
-}
-
 EquationErrors equation_errors(const ScreenPoint<Bound>& p0, const ScreenPoint<Bound>& p1,
                                const ScreenPoint<Bound>& p2, int width, int height) {
   const PolygonEquations<Bound> q = polygon_equations(p0, p1, p2);

@@ -83,9 +83,6 @@ struct Polygon {
   bool caster = false;   // a triangle's, not a side's
 };
 
-// Not below x.
-float rounded_up(double x);
-
 // Fills edges, nearness and facing from the equations. `corners` are read only if the filter cannot
 // tell the facing.
 void set_up(Polygon& p, const PolygonEquations<double>& q, const EquationErrors& errors,

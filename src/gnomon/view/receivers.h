@@ -49,6 +49,11 @@ struct NearnessTiles {
 // In magnitude; beyond it nearness is not known as a float, which must have room to reckon with it.
 inline constexpr double kLargestNearness = 1e28;
 
+// What stored nearness is taken to be wrong by where bounds are made of it, as a share of it: twice
+// what it may be (Receivers::nearness), which pays for the bound's own rounding. nearness_floor is
+// added.
+inline constexpr double kNearnessRounding = 0x1p-22;
+
 struct Receivers {
   View view;
   // Row-major, row 0 at the top, width * height each.
