@@ -11,6 +11,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include <gnomon/raster/fill_quads-inl.h>
+
 HWY_BEFORE_NAMESPACE();
 namespace gnomon {
 namespace HWY_NAMESPACE {
@@ -18,17 +20,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using D = hn::CappedTag<double, 8>;
 using DI = hn::Rebind<std::int32_t, D>;
-using F = hn::CappedTag<float, 16>;
-using FI = hn::Rebind<std::int32_t, F>;
-using FU = hn::Rebind<std::uint32_t, F>;
-
-constexpr std::int32_t kNoBegin = 0x3fffffff;
-
-// The widest reading of each row's span; empty rows have no width.
-constexpr std::size_t kSlots = kStripRowsMax + 16;
-struct RowSpans {
-  HWY_ALIGN std::int32_t begin[kSlots], end[kSlots], width[kSlots];
-};
 
 // Rows [first, first + rows) of which `skip` are of other polygons, and those of the last group of
 // four.
@@ -91,13 +82,7 @@ void FindSpans(const Polygon& p, const PolygonJob& job, int first, int skip, int
       hn::Store(hn::IfThenElseZero(undecided, hn::Set(d, 1.0)), d, flag);
       for (int k = 0; k < static_cast<int>(hn::Lanes(d)); ++k) {
         if (flag[k] == 0) continue;
-        const Span exact = job.exact->span(p, first + i + k);
-        const std::int32_t from = std::max(out.begin[i + k], exact.begin),
-                           to = std::min(out.end[i + k], exact.end);
-        const bool empty = from >= to;
-        out.begin[i + k] = empty ? kNoBegin : from;
-        out.end[i + k] = empty ? 0 : to;
-        out.width[i + k] = empty ? 0 : to - from;
+        Narrow(out, i + k, job.exact->span(p, first + i + k));
       }
     }
   }
@@ -137,73 +122,34 @@ void FillPolygon(const Polygon& p, const PolygonJob& job, const RowSpans& spans,
 
 #else
 
-// Corrects the samples of a vector that are too close to the polygon for float: of `close`, where
-// `front` is what float said.
-template <class M>
-HWY_NOINLINE void DecideClose(const Polygon& p, const PolygonJob& job, M close, M front, int column,
-                              int row, std::int32_t* counts) {
-  const F f;
-  HWY_ALIGN float is_close[16], is_front[16];
-  hn::Store(hn::IfThenElseZero(close, hn::Set(f, 1.0f)), f, is_close);
-  hn::Store(hn::IfThenElseZero(front, hn::Set(f, 1.0f)), f, is_front);
-  for (int lane = 0; lane < static_cast<int>(hn::Lanes(f)); ++lane) {
-    if (is_close[lane] == 0) continue;
-    const bool exact = job.exact->in_front(p, column + lane / kQuadRows, row + lane % kQuadRows),
-               guess = is_front[lane] != 0;
-    if (exact != guess) counts[lane] += exact ? addition(p, job) : -addition(p, job);
-  }
-}
-
 // Adds to the samples that the polygon is in front of.
 void FillPolygon(const Polygon& p, const PolygonJob& job, const RowSpans& spans, int first,
                  int rows) {
   const F f;
   const FI fi;
-  const FU fu;
-  const int columns = static_cast<int>(hn::Lanes(f)) / kQuadRows;  // of a vector
-  const auto lane_column = hn::ShiftRight<2>(hn::Iota(fi, 0));
+  const int columns = ColumnsOfVector();
   const auto ga = static_cast<float>(p.g.a);
-  const auto offset = hn::Mul(hn::Set(f, ga), hn::ConvertTo(f, lane_column)),
+  const auto offset = hn::Mul(hn::Set(f, ga), hn::ConvertTo(f, hn::ShiftRight<2>(hn::Iota(fi, 0)))),
              step = hn::Set(f, ga * static_cast<float>(columns));
-  const auto add = hn::Set(fi, addition(p, job));
+  const std::int32_t add = addition(p, job);
   for (int i = 0; i < rows; i += kQuadRows) {
-    const std::int32_t *b = spans.begin + i, *e = spans.end + i;
-    const int begin = std::min(std::min(b[0], b[1]), std::min(b[2], b[3])) & -columns;
-    const int end = std::max(std::max(e[0], e[1]), std::max(e[2], e[3]));
-    if (begin >= end) continue;
+    const ColumnRange range = RangeOfRows(spans, i);
+    if (range.begin >= range.end) continue;
     HWY_ALIGN float start[kQuadRows];
     double most = 0;
     for (int k = 0; k < kQuadRows; ++k) {
       const double at =
-          (p.g.c + p.g.b * (first + i + k + kPixelCentre)) + p.g.a * (begin + kPixelCentre);
-      most =
-          std::max(most, std::max(std::fabs(at), std::fabs(at + p.g.a * (end + columns - begin))));
+          (p.g.c + p.g.b * (first + i + k + kPixelCentre)) + p.g.a * (range.begin + kPixelCentre);
+      const double end = at + p.g.a * (range.end + columns - range.begin);
+      most = std::max(most, std::max(std::fabs(at), std::fabs(end)));
       start[k] = static_cast<float>(at);
     }
     const auto error = hn::Set(f, static_cast<float>(comparison_error(p, job, most)));
     const std::size_t base =
         static_cast<std::size_t>((first + i - job.first_row) / kQuadRows) * job.stride;
-    const float* nearness = job.nearness + base;
-    std::int32_t* counts = job.counts + base;
-    const auto at = hn::Add(hn::LoadDup128(f, start), offset);
-    const auto width = hn::BitCast(fu, hn::LoadDup128(fi, spans.width + i));
-    auto within = hn::Sub(hn::Add(hn::Set(fi, begin), lane_column), hn::LoadDup128(fi, b));
-    auto vectors = hn::Zero(f);
-    for (int x = begin; x < end; x += columns) {
-      const std::size_t k = static_cast<std::size_t>(x) * kQuadRows;
-      const auto valid = hn::RebindMask(f, hn::Lt(hn::BitCast(fu, within), width));
-      const auto difference =
-          hn::Sub(hn::Add(at, hn::Mul(vectors, step)), hn::Load(f, nearness + k));
-      const auto front = hn::And(valid, hn::Gt(difference, error));
-      const auto close = hn::AndNot(hn::Gt(hn::Abs(difference), error), valid);  // NaN: close
-      hn::Store(
-          hn::Add(hn::Load(fi, counts + k), hn::IfThenElseZero(hn::RebindMask(fi, front), add)), fi,
-          counts + k);
-      if (HWY_UNLIKELY(!hn::AllFalse(f, close)))
-        DecideClose(p, job, close, front, x, first + i, counts + k);
-      within = hn::Add(within, hn::Set(fi, columns));
-      vectors = hn::Add(vectors, hn::Set(f, 1.0f));
-    }
+    FillRows(spans, i, first + i, range, job.nearness + base, job.counts + base,
+             hn::Add(hn::LoadDup128(f, start), offset), step, error, add,
+             [&](int column, int row) { return job.exact->in_front(p, column, row); });
   }
 }
 

@@ -10,27 +10,18 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include <gnomon/raster/fill_quads-inl.h>
+
 HWY_BEFORE_NAMESPACE();
 namespace gnomon {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr std::size_t kLanesMax = 16;
 constexpr std::size_t kAhead = 8;  // strips are fetched before they are filled
-using F = hn::CappedTag<float, kLanesMax>;
-using FI = hn::Rebind<std::int32_t, F>;
-using FU = hn::Rebind<std::uint32_t, F>;
-
-// The widest reading of each row's span, in columns of the picture; empty rows have no width.
-struct StripSpans {
-  HWY_ALIGN std::int32_t begin[kStripRowsMax + kLanesMax];
-  HWY_ALIGN std::int32_t end[kStripRowsMax + kLanesMax];
-  HWY_ALIGN std::int32_t width[kStripRowsMax + kLanesMax];
-};
 
 // Rows [first, first + rows) of which `skip` are of other strips; first is a multiple of four.
 HWY_INLINE void FindStripSpans(const Strip& s, const StripJob& job, int first, int skip, int rows,
-                               StripSpans& out) {
+                               RowSpans& out) {
   const F f;
   const FI fi;
   const int lanes = static_cast<int>(hn::Lanes(f));
@@ -71,7 +62,7 @@ HWY_INLINE void FindStripSpans(const Strip& s, const StripJob& job, int first, i
         hn::And(hn::RebindMask(f, here), hn::Or(hn::Gt(begin_high, begin), hn::Lt(end_low, end)));
     // Of rows that are empty only differences matter, which overflow in no case.
     const auto b =
-        hn::IfThenElse(here, hn::Add(hn::ConvertTo(fi, begin), column), hn::Set(fi, 0x3fffffff));
+        hn::IfThenElse(here, hn::Add(hn::ConvertTo(fi, begin), column), hn::Set(fi, kNoBegin));
     const auto e = hn::IfThenElse(here, hn::Add(hn::ConvertTo(fi, end), column), none);
     hn::Store(b, fi, out.begin + i);
     hn::Store(e, fi, out.end + i);
@@ -81,39 +72,16 @@ HWY_INLINE void FindStripSpans(const Strip& s, const StripJob& job, int first, i
       hn::Store(hn::IfThenElseZero(unsure, one), f, flag);
       for (int k = 0; k < lanes; ++k) {
         if (flag[k] == 0) continue;
-        const Span exact = job.exact->span(s, first + i + k);
-        const std::int32_t from = std::max(out.begin[i + k], exact.begin),
-                           to = std::min(out.end[i + k], exact.end);
-        const bool empty = from >= to;
-        out.begin[i + k] = empty ? 0x3fffffff : from;
-        out.end[i + k] = empty ? 0 : to;
-        out.width[i + k] = empty ? 0 : to - from;
+        Narrow(out, i + k, job.exact->span(s, first + i + k));
       }
     }
-  }
-}
-
-// Corrects the samples of a vector that are too close to the strip for float: of `close`, where
-// `front` is what float said.
-template <class M>
-HWY_NOINLINE void DecideCloseInQuad(const Strip& s, const StripJob& job, M close, M front,
-                                    int column, int row, std::int32_t* counts) {
-  const F f;
-  HWY_ALIGN float is_close[kLanesMax], is_front[kLanesMax];
-  hn::Store(hn::IfThenElseZero(close, hn::Set(f, 1.0f)), f, is_close);
-  hn::Store(hn::IfThenElseZero(front, hn::Set(f, 1.0f)), f, is_front);
-  for (int lane = 0; lane < static_cast<int>(hn::Lanes(f)); ++lane) {
-    if (is_close[lane] == 0) continue;
-    const bool exact = job.exact->in_front(s, column + lane / kQuadRows, row + lane % kQuadRows),
-               guess = is_front[lane] != 0;
-    if (exact != guess) counts[lane] += exact ? s.add : -s.add;
   }
 }
 
 #if HWY_TARGET == HWY_SCALAR
 
 void FillStrips(const StripJob& job) {
-  StripSpans spans;
+  RowSpans spans;
   for (std::size_t n = 0; n < job.count; ++n) {
     const Strip& s = job.strips[job.selected[n]];
     if (n + kAhead < job.count) hwy::Prefetch(&job.strips[job.selected[n + kAhead]]);
@@ -139,54 +107,32 @@ void FillStrips(const StripJob& job) {
 #else
 
 // Adds s.add to the samples that the strip is in front of.
-HWY_INLINE void FillStrip(const Strip& s, const StripJob& job, const StripSpans& spans, int first,
+HWY_INLINE void FillStrip(const Strip& s, const StripJob& job, const RowSpans& spans, int first,
                           int rows) {
   const F f;
   const FI fi;
-  const FU fu;
-  const int columns = static_cast<int>(hn::Lanes(f)) / kQuadRows;  // of a vector
   const auto lane = hn::Iota(fi, 0);
   const auto lane_column = hn::ShiftRight<2>(lane), lane_row = hn::And(lane, hn::Set(fi, 3));
   const auto offset = hn::Add(hn::Mul(hn::Set(f, s.ga), hn::ConvertTo(f, lane_column)),
                               hn::Mul(hn::Set(f, s.gb), hn::ConvertTo(f, lane_row)));
-  const auto step = hn::Set(f, s.ga * static_cast<float>(columns)), error = hn::Set(f, s.error);
-  const auto add = hn::Set(fi, s.add);
+  const auto step = hn::Set(f, s.ga * static_cast<float>(ColumnsOfVector())),
+             error = hn::Set(f, s.error);
   const int reference = reference_row(s);
   for (int i = 0; i < rows; i += kQuadRows) {
-    const std::int32_t *b = spans.begin + i, *e = spans.end + i;
-    const int begin = std::min(std::min(b[0], b[1]), std::min(b[2], b[3])) & -columns;
-    const int end = std::max(std::max(e[0], e[1]), std::max(e[2], e[3]));
-    if (begin >= end) continue;
+    const ColumnRange range = RangeOfRows(spans, i);
+    if (range.begin >= range.end) continue;
     const std::size_t base =
         static_cast<std::size_t>((first + i - job.first_row) / kQuadRows) * job.stride;
-    const float* nearness = job.nearness + base;
-    std::int32_t* counts = job.counts + base;
     const auto at = hn::Add(hn::Set(f, (s.g + s.gb * static_cast<float>(first + i - reference)) +
-                                           s.ga * static_cast<float>(begin - s.column)),
+                                           s.ga * static_cast<float>(range.begin - s.column)),
                             offset);
-    const auto width = hn::BitCast(fu, hn::LoadDup128(fi, spans.width + i));
-    auto within = hn::Sub(hn::Add(hn::Set(fi, begin), lane_column), hn::LoadDup128(fi, b));
-    auto vectors = hn::Zero(f);
-    for (int x = begin; x < end; x += columns) {
-      const std::size_t k = static_cast<std::size_t>(x) * kQuadRows;
-      const auto valid = hn::RebindMask(f, hn::Lt(hn::BitCast(fu, within), width));
-      const auto difference =
-          hn::Sub(hn::Add(at, hn::Mul(vectors, step)), hn::Load(f, nearness + k));
-      const auto front = hn::And(valid, hn::Gt(difference, error));
-      const auto close = hn::AndNot(hn::Gt(hn::Abs(difference), error), valid);  // NaN: close
-      hn::Store(
-          hn::Add(hn::Load(fi, counts + k), hn::IfThenElseZero(hn::RebindMask(fi, front), add)), fi,
-          counts + k);
-      if (HWY_UNLIKELY(!hn::AllFalse(f, close)))
-        DecideCloseInQuad(s, job, close, front, x, first + i, counts + k);
-      within = hn::Add(within, hn::Set(fi, columns));
-      vectors = hn::Add(vectors, hn::Set(f, 1.0f));
-    }
+    FillRows(spans, i, first + i, range, job.nearness + base, job.counts + base, at, step, error,
+             s.add, [&](int column, int row) { return job.exact->in_front(s, column, row); });
   }
 }
 
 void FillStrips(const StripJob& job) {
-  StripSpans spans;
+  RowSpans spans;
   for (std::size_t n = 0; n < job.count; ++n) {
     const Strip& s = job.strips[job.selected[n]];
     if (n + kAhead < job.count) hwy::Prefetch(&job.strips[job.selected[n + kAhead]]);
