@@ -9,6 +9,7 @@
 #define GNOMON_RASTER_FILL_QUADS_INL_H_
 #endif
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
